@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kiln/core/param.h"
+#include "kiln/image/layers.h"
+
+namespace kiln {
+
+struct Svbrdf;
+class Light;        // bake/products.h: an environment, ready to light with
+class AlbedoTable;  // table/albedo_table.h
+
+/// Once for the whole pipeline, or once per texture set.
+enum class Scope { Once, PerSet };
+
+/// What `out` of a bake names.
+enum class Product {
+  Numbers,  ///< a file of numbers, written as they are
+  Picture,  ///< a file of radiance; formats made for viewing (png, jpg) get it through the display
+  Folder    ///< a folder of named files of numbers
+};
+
+/// What a bake says of itself. Help, parsing, docs and tests follow from it.
+struct BakeFacts {
+  std::string name;     ///< "lut", "environment", "preview"
+  std::string summary;  ///< one line
+  Scope scope = Scope::Once;
+  std::vector<ParamFacts> params;
+  Product product = Product::Numbers;
+};
+
+/// What a bake reads besides its settings. A pointer it did not ask for is null.
+struct Needs {
+  bool material = false;     ///< the SVBRDF of the set
+  bool light = false;        ///< an environment (key `env`)
+  bool prefiltered = false;  ///< its specular chain and irradiance too
+  bool albedo = false;       ///< the directional-albedo table of the model
+};
+struct Ingredients {
+  const Svbrdf* material = nullptr;
+  const Light* light = nullptr;
+  const AlbedoTable* albedo = nullptr;
+  bool energy_multiscatter = true;  ///< material: energy
+  std::string diffuse = "eon";      ///< material: diffuse
+};
+
+/// One product: an image or a text. `name` is empty for the bake's single product (its file is the
+/// task's `out`); otherwise it is the file's name without extension below the folder `out`.
+struct Artifact {
+  std::string name;
+  std::string extension;  ///< with dot, forced ("." + json for texts); empty: the task's own
+  Layers image;
+  std::string text;  ///< when not empty, this is the product
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
+};
+
+struct Baked {
+  std::vector<Artifact> artifacts;
+  std::vector<std::string> notes;                       ///< what the user should know
+  std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
+};
+
+/// A bake with its settings: filled in by name, then run. Pure: no files, no global state.
+class Recipe {
+ public:
+  virtual ~Recipe() = default;
+  virtual const BakeFacts& facts() const = 0;
+  /// @error Fault::Usage with the nearest known parameter, or the range
+  virtual void set(const std::string& name, const std::string& text) = 0;
+  virtual Needs needs() const = 0;
+  virtual Baked bake(const Ingredients& ingredients) const = 0;
+};
+
+/// Every bake there is, in the order of the list.
+const std::vector<BakeFacts>& all_bakes();
+
+/// @error Fault::Usage, naming the nearest known bake
+std::unique_ptr<Recipe> make_recipe(const std::string& bake);
+
+}  // namespace kiln

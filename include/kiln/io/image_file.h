@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kiln/image/layers.h"
+
+namespace kiln {
+
+enum class PixelType { Uint8, Uint16, Half, Float };
+std::string_view pixel_type_name(PixelType type);  ///< "uint8", "uint16", "half", "float"
+
+/// Metadata "name" -> text.
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+/// What a file says of itself.
+struct FileFacts {
+  std::string format;  ///< "openexr", "png", "jpeg", "hdr", "tiff", ...; told by the contents
+  Size size;           ///< as returned: the display window, after orientation
+  std::vector<std::string> channels;  ///< R G B (or Y), A first; layers keep full names
+  PixelType type = PixelType::Uint8;  ///< the smallest of the four that holds what is stored
+  /// As tagged by the file, never trusted for data: a name of the built-in colour configuration,
+  /// or "icc: DESCRIPTION". Empty when the file does not say; formats' customs are not a tag.
+  std::optional<std::string> color_space_tag;
+  bool node_aligned = false;       ///< lat-long with samples on the border
+  Attributes attributes;           ///< text metadata of the file, of EXR, PNG and TIFF
+  std::vector<std::string> notes;  ///< what had to be decided or repaired while reading
+};
+
+struct ImageFile {
+  Layers image;  ///< values as stored (integers scaled to [0,1]), alpha unassociated
+  FileFacts facts;
+};
+
+struct ReadLimits {
+  long long max_texels = 1LL << 28;  ///< a header that claims more is refused
+  int max_channels = 256;            ///< as is one with more channels
+};
+
+/// The header only. @error Fault::Input, message "PATH: what is wrong"
+FileFacts inspect_image(const std::filesystem::path& path);
+
+/// Any image: OpenEXR and Radiance HDR directly, everything else through OpenImageIO, which is
+/// loaded on first use. The contents decide the format, not the extension.
+///
+/// The display window is what is returned, with 0 where a file has no data; EXIF and HDR
+/// orientation are applied. NaN and Inf are returned as stored. Of several parts or pages the first
+/// is read, of mip levels the largest. Colour under alpha 0 is kept, since PNG alpha is never
+/// multiplied in. Alpha of OpenEXR files is returned as stored, and a note says so: the format's
+/// custom is premultiplied colour, yet maps whose A is no coverage are common.
+///
+/// May be called from many threads at once; starts no thread of its own.
+/// @error Fault::Input when missing, empty, truncated, unreadable or too large
+ImageFile read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+/// What a written file says about its colours, in formats that can say it (PNG).
+enum class ColorTag {
+  None,    ///< nothing: data, or a space that the format has no word for
+  Srgb,    ///< sRGB, encoded
+  Linear,  ///< Rec.709 primaries, linear
+};
+
+/// How colour is stored beside alpha in OpenEXR files; all other formats keep it straight.
+enum class AlphaStorage {
+  Straight,       ///< as in memory; colour under alpha 0 survives
+  Premultiplied,  ///< R, G, B (or Y) times A: the custom of pictures in OpenEXR
+};
+
+struct WriteOptions {
+  PixelType type = PixelType::Half;
+  /// In formats that hold them (EXR, PNG, TIFF).
+  Attributes attributes = {};
+  ColorTag color_tag = ColorTag::None;
+  AlphaStorage alpha = AlphaStorage::Straight;
+};
+
+struct WriteFacts {
+  long long clamped = 0;       ///< finite values beyond the type's range that were clamped
+  long long not_a_number = 0;  ///< NaN that became 0, in types that have none
+  double largest_clamped = 0;  ///< largest magnitude of the clamped values
+};
+
+/// A format that write_image knows.
+struct WritableFormat {
+  std::string_view name;
+  std::vector<std::string_view> extensions;  ///< lower case, with the dot
+  std::vector<PixelType> types;              ///< the first is the format's default
+  std::string_view channels;                 ///< what it holds, in words
+};
+const std::vector<WritableFormat>& writable_formats();
+
+/// The format that an extension of `path` (any case) stands for.
+/// @error Fault::Usage, naming the extensions that are known
+const WritableFormat& writable_format(const std::filesystem::path& path);
+
+/// Publishes an image whole or not at all; bytes depend on nothing but the arguments (no date).
+///
+/// | extension   | types                         | channels                                     |
+/// |-------------|-------------------------------|----------------------------------------------|
+/// | .exr        | half, float (ZIP)             | any, by name                                 |
+/// | .hdr        | float (as RGBE)               | 1 to 3; one is repeated, a third is 0        |
+/// | .png        | uint8, uint16                 | 1 to 4; two without alpha get a third of 0   |
+/// | .jpg .jpeg  | uint8                         | 1 to 3; as .hdr                              |
+/// | .tif .tiff  | uint8, uint16, half, float    | any                                          |
+///
+/// Where a format has no channel names, R G B A (or Y A) are put in that order and other names are
+/// taken in the order of the layers; only a layer named A is alpha, stored straight.
+/// Integers are round(v * max). In half, uint and RGBE finite values beyond the range are clamped
+/// and counted. RGBE has no negative values, and stores 1 part in 256 of the largest of the three.
+/// @error Fault::Usage for an unknown extension or a type or channels that the format cannot hold,
+///        Fault::Output when it cannot be written
+WriteFacts write_image(const std::filesystem::path& path, const Layers& image,
+                       const WriteOptions& options);
+
+}  // namespace kiln

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "kiln/image/layers.h"
+
+namespace kiln {
+
+/// Where the green channel of a normal map points: up the image (OpenGL) or down (DirectX).
+enum class NormalConvention { Auto, OpenGl, DirectX };
+inline constexpr std::array<std::string_view, 3> normal_convention_names = {"auto", "gl", "dx"};
+constexpr std::string_view convention_text(NormalConvention convention) {
+  return convention == NormalConvention::DirectX ? "DirectX (y down)" : "OpenGL (y up)";
+}
+
+/// Which stored value of red and green means zero slope.
+///
+/// `Both` is n = 2 v - 1 with the two middle codes of 8 bits, 127/255 and 128/255, taken as zero:
+/// whichever of them the writer meant, flat is exactly flat, and no other 8-bit code moves. In
+/// deeper files those two exact values are two of 65,536.
+enum class NormalZero { Both, Exact, Code127, Code128 };
+inline constexpr std::array<std::string_view, 4> normal_zero_names = {"both", "exact", "127",
+                                                                      "128"};
+
+/// Whether a file stores [0,1] or the components themselves; `Auto` takes negative values as a sign
+/// of the latter.
+enum class NormalRange { Auto, Unsigned, Signed };
+inline constexpr std::array<std::string_view, 3> normal_range_names = {"auto", "unsigned",
+                                                                       "signed"};
+
+struct NormalDecoding {
+  NormalConvention convention = NormalConvention::OpenGl;  ///< Auto is read as OpenGl
+  NormalZero zero = NormalZero::Both;
+  NormalRange range = NormalRange::Auto;
+};
+
+struct DecodedNormals {
+  std::array<Plane, 3> normal;  ///< unit, +Y up, z > 0
+  long long degenerate = 0;     ///< shorter than 0.05: replaced by (0, 0, 1)
+  long long below_surface = 0;  ///< z <= 0: z raised to 0.05, then normalised
+  long long unreadable = 0;     ///< NaN or Inf: replaced by (0, 0, 1)
+  bool two_channel = false;     ///< z was rebuilt from x and y
+  bool signed_range = false;    ///< the file stores [-1, 1]
+};
+
+/// The least z that a normal below the surface is raised to, and the least by which slopes are
+/// formed when normals are averaged: 87 degrees off the surface normal.
+inline constexpr float least_normal_z = 0.05f;
+
+/// Stored normals to unit vectors.
+///
+/// The first two planes are x and y, the third z. Where it is missing or constant while x or y are
+/// not, the map has two channels and z = sqrt(1 - x^2 - y^2).
+///
+/// @error Fault::Input when the image has one channel only
+DecodedNormals decode_normals(const Layers& stored, const NormalDecoding& decoding);
+
+/// Flips +Y up to +Y down and back.
+void flip_y(std::array<Plane, 3>& normal);
+
+/// What a height map or the normals themselves say about the convention they were stored in.
+struct ConventionGuess {
+  NormalConvention convention = NormalConvention::Auto;  ///< Auto: nothing significant
+  double correlation_x =
+      0;  ///< of nx with dh/dx; of the mixed derivatives where no height is given
+  double correlation_y = 0;  ///< of ny with dh/dy, y down
+  std::string reason;        ///< the numbers in words, without the verdict
+};
+
+/// Compares normals, decoded as if they were OpenGL, with the gradient of the height map.
+///
+/// A height field h has the normal (-dh/dx, -dh/dy_up, 1): nx falls with dh/dx, and with y counted
+/// down the rows ny rises with dh/dy in OpenGL maps and falls in DirectX maps. A map of depth
+/// instead of height turns both signs, so the product of the correlations decides.
+ConventionGuess guess_convention(const std::array<Plane, 3>& normal, const Plane& height);
+
+/// Without a height map: the slopes p = dh/dx and q = dh/dy of a height field satisfy dp/dy =
+/// dq/dx, so the correlation of the two sides is positive in the right convention, negative in the
+/// other.
+ConventionGuess guess_convention(const std::array<Plane, 3>& normal);
+
+}  // namespace kiln

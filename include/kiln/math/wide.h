@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// One text, three number types. Formulas are templates on F; F is double (the oracle, and tables),
+// float (the reference) or a wide number (texels and samples). This is the one header in which a
+// third-party type shows: the wide number is xsimd's batch.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <xsimd/xsimd.hpp>
+
+namespace kiln {
+
+using WideFloat = xsimd::batch<float>;
+using WideDouble = xsimd::batch<double>;
+using WideUint = xsimd::batch<std::uint32_t>;
+using WideInt = xsimd::batch<std::int32_t>;
+
+/// What a number type is made of: its scalar, its mask and how many lanes it has.
+template <class F>
+struct Lanes {
+  using Scalar = F;
+  using Mask = bool;
+  using Uint = std::uint32_t;
+  static constexpr int count = 1;
+};
+template <class T, class A>
+struct Lanes<xsimd::batch<T, A>> {
+  using Scalar = T;
+  using Mask = xsimd::batch_bool<T, A>;
+  using Uint = xsimd::batch<std::uint32_t, A>;
+  static constexpr int count = static_cast<int>(xsimd::batch<T, A>::size);
+};
+
+template <class F>
+using ScalarOf = typename Lanes<F>::Scalar;
+template <class F>
+using MaskOf = typename Lanes<F>::Mask;
+/// Unsigned integers beside F, lane for lane (float types only).
+template <class F>
+using UintOf = typename Lanes<F>::Uint;
+template <class F>
+inline constexpr int lane_count = Lanes<F>::count;
+
+// Scalars find these names here, wide numbers find xsimd's by their argument.
+using std::abs;
+using std::atan2;
+using std::ceil;
+using std::copysign;
+using std::cos;
+using std::exp;
+using std::floor;
+using std::fma;
+using std::isnan;
+using std::log;
+using std::max;
+using std::min;
+using std::pow;
+using std::sin;
+using std::sqrt;
+
+template <class F>
+requires std::is_arithmetic_v<F>
+constexpr F select(bool condition, F yes, F no) { return condition ? yes : no; }
+inline bool any(bool condition) { return condition; }
+inline bool all(bool condition) { return condition; }
+
+template <class F>
+F square(F x) {
+  return x * x;
+}
+
+/// x^5 by three multiplications.
+template <class F>
+F pow5(F x) {
+  const F x2 = x * x;
+  return x2 * x2 * x;
+}
+
+template <class F>
+F clamp(F x, F low, F high) {
+  return min(max(x, low), high);
+}
+
+template <class F>
+F lerp(F a, F b, F t) {
+  return fma(t, b - a, a);
+}
+
+/// sqrt of x, 0 where x < 0 (rounding below zero).
+template <class F>
+F safe_sqrt(F x) {
+  return sqrt(max(x, F(0)));
+}
+
+/// Loads / stores lane_count<F> values; `from` and `to` need no alignment. (Plain load and store
+/// would lose to xsimd's own, which want aligned memory.)
+template <class F>
+F load_lanes(const ScalarOf<F>* from) {
+  if constexpr (lane_count<F> == 1) {
+    return *from;
+  } else {
+    return F::load_unaligned(from);
+  }
+}
+template <class F>
+void store_lanes(ScalarOf<F>* to, F value) {
+  if constexpr (lane_count<F> == 1) {
+    *to = value;
+  } else {
+    value.store_unaligned(to);
+  }
+}
+
+/// table[index] lane for lane; every lane's index must be inside the table.
+inline float gather(const float* table, std::int32_t index) { return table[index]; }
+inline WideFloat gather(const float* table, WideInt index) {
+  return WideFloat::gather(table, index);
+}
+
+inline constexpr double pi = 3.14159265358979323846;
+
+}  // namespace kiln

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiln/bake/bake.h"
+
+namespace kiln {
+
+// Each bake is a struct with a name, a summary, a scope, its Settings and three functions. They are
+// declared here and listed in bake.cpp; a new one is a file and a line on that list.
+
+/// A table of BRDF integrals.
+struct LutBake {
+  static constexpr const char* name = "lut";
+  static constexpr const char* summary = "lookup table of BRDF integrals, with its error";
+  static constexpr Scope scope = Scope::Once;
+  static constexpr Product product = Product::Numbers;
+  struct Settings {
+    std::string table = "split-sum";
+    Size size{128, 128};
+    std::string distribution = "ggx", masking = "smith-correlated", fresnel = "schlick";
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings&) { return {}; }
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// An environment as an engine wants it: a prefiltered specular chain and irradiance.
+struct EnvironmentBake {
+  static constexpr const char* name = "environment";
+  static constexpr const char* summary = "prefiltered specular chain, irradiance and harmonics";
+  static constexpr Scope scope = Scope::Once;
+  static constexpr Product product = Product::Folder;
+  enum class Layout { Cube, Latlong };
+  enum class Curve { Filament, Linear };
+  enum class Format { Exr, Hdr };
+  struct Settings {
+    int size = 256;
+    Layout layout = Layout::Cube;
+    Curve curve = Curve::Filament;
+    Format format = Format::Exr;
+    int sh_order = 2;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings&) { return {.light = true}; }
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// A lit picture of a texture set.
+struct PreviewBake {
+  static constexpr const char* name = "preview";
+  static constexpr const char* summary = "lit picture of a texture set, flat or on a ball";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Picture;
+  enum class Shape { Flat, Sphere };
+  enum class Mode { Reference, SplitSum, Difference };
+  struct Settings {
+    Shape shape = Shape::Flat;
+    Mode mode = Mode::Reference;
+    int samples = 64;
+    double target_error = 0;
+    Size size{0, 0};
+    std::string view = "0,0";
+    double rotate = 0;
+    int seed = 0;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+}  // namespace kiln

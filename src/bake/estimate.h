@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiln/integrate/sobol.h"
+#include "kiln/light/environment.h"
+#include "kiln/math/hash.h"
+#include "shading_point.h"
+
+namespace kiln {
+
+// Radiance toward the viewer by multiple importance sampling.
+//
+//     L = INT f(wi) L(wi) cos(wi) dwi
+//
+// Each point of the set gives one direction from the environment's density p_e and one from the
+// texel's own density p_b. With the balance heuristic both add f L cos / (p_e + p_b), and the sum
+// over both kinds, divided by the number of points, is unbiased. Light counts from the whole
+// hemisphere above the shading normal, also where that reaches below the plane of the texel: a
+// tilted texel then receives as much as a flat one. Ambient occlusion dims the diffuse lobe only.
+
+/// f L cos / (p_e + p_b) for the direction wi in the shading frame.
+template <class F, class Diffuse>
+Vec3<F> weigh_light(const ShadingPoint<F, Diffuse>& point, const AlbedoTable& table, Vec3<F> wi,
+                    const Vec3<F>& radiance, F light_density) {
+  const auto above = wi.z > F(1e-6);
+  wi.z = max(wi.z, F(1e-6));
+  const Vec3<F> wm = half_vector(point.wo, wi);
+  const F d = point.surface.ggx.D(wm);
+  const F own_density = lerp(cosine_density(wi), point.surface.ggx.visible_density(point.wo, d),
+                             point.specular_share);
+  const Albedo<F> albedo{point.terms_o, table.terms(point.row, wi.z), point.average};
+  const Reflected<F> f = point.surface.eval(point.wo, wi, wm, d, albedo);
+  const F weight = select(above, wi.z / (own_density + light_density), F(0));
+  return (f.specular + f.diffuse * point.occlusion) * radiance * weight;
+}
+
+/// A direction drawn from the texel's own density; it may lie below the horizon.
+template <class F, class Diffuse>
+Vec3<F> sample_direction(const ShadingPoint<F, Diffuse>& point, const Vec2<F>& u) {
+  const F share = point.specular_share;
+  const auto specular = u.x < share;
+  const F x = select(specular, u.x / share, (u.x - share) / (F(1) - share));
+  const Vec2<F> v{min(x, F(1 - 0x1p-24)), u.y};
+  const Vec3<F> wm = point.surface.ggx.sample_visible(point.wo, v);
+  const Vec3<F> mirrored = wm * (F(2) * dot(point.wo, wm)) - point.wo;
+  return select(specular, mirrored, square_to_cosine(v));
+}
+
+/// Seeds of the four scrambled dimensions of one repetition at one texel.
+template <class U>
+std::array<U, 4> repetition_seeds(U texel, std::uint32_t repetition) {
+  std::array<U, 4> seeds;
+  for (std::uint32_t d = 0; d < 4; ++d) {
+    seeds[d] = combine_hash<U>(texel, U(4 * repetition + d));
+  }
+  return seeds;
+}
+
+/// Sum over the points [first, last) of the set; divide by their number for the radiance.
+template <class F, class Diffuse>
+Vec3<F> sum_points(const ShadingPoint<F, Diffuse>& point, const Environment& environment,
+                   const AlbedoTable& table, const SobolPoints& points, int first, int last,
+                   const std::array<UintOf<F>, 4>& seeds) {
+  using U = UintOf<F>;
+  Vec3<F> sum{F(0), F(0), F(0)};
+  for (int i = first; i < last; ++i) {
+    const auto u = [&](int d) {
+      return unit_float(owen_scramble_reversed<U>(U(points[i][d]), seeds[d]));
+    };
+    const LightSample<F> light = environment.sample(Vec2<F>{u(0), u(1)});
+    sum += weigh_light(point, table, point.frame.to_local(light.direction), light.radiance,
+                       light.density);
+    const Vec3<F> wi = sample_direction(point, Vec2<F>{u(2), u(3)});
+    const Vec3<F> toward = point.frame.to_world(wi);
+    sum += weigh_light(point, table, wi, environment.radiance(toward), environment.density(toward));
+  }
+  return sum;
+}
+
+}  // namespace kiln

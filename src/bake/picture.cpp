@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kiln {
+namespace {
+
+constexpr double position_x[subpixels] = {0.375, 0.875, 0.125, 0.625};
+constexpr double position_y[subpixels] = {0.125, 0.375, 0.625, 0.875};
+
+int wrap(int i, int n) {
+  const int rest = i % n;
+  return rest < 0 ? rest + n : rest;
+}
+
+// Adds weight times the bilinear value of each plane at (u, v), repeating.
+void add_bilinear(const Svbrdf& maps, double u, double v, double weight, float* values) {
+  const double x = u * maps.size.width - 0.5, y = v * maps.size.height - 0.5;
+  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+  const double tx = x - left, ty = y - top;
+  const int x0 = wrap(left, maps.size.width), x1 = wrap(left + 1, maps.size.width);
+  const int y0 = wrap(top, maps.size.height), y1 = wrap(top + 1, maps.size.height);
+  const auto planes = planes_of(maps);
+  for (int p = 0; p < svbrdf_planes; ++p) {
+    const float *a = planes[p]->row(y0), *b = planes[p]->row(y1);
+    const double value = std::lerp(std::lerp(a[x0], a[x1], tx), std::lerp(b[x0], b[x1], tx), ty);
+    values[p] += static_cast<float>(weight * value);
+  }
+}
+
+template <class F>
+Vec3<F> load_vector(const std::array<std::array<float, lane_count<F>>, 3>& v) {
+  return {load_lanes<F>(v[0].data()), load_lanes<F>(v[1].data()), load_lanes<F>(v[2].data())};
+}
+
+template <class F>
+void put(std::array<std::array<float, lane_count<F>>, 3>& to, int lane, const Vec3<double>& v) {
+  to[0][lane] = static_cast<float>(v.x);
+  to[1][lane] = static_cast<float>(v.y);
+  to[2][lane] = static_cast<float>(v.z);
+}
+
+}  // namespace
+
+Picture::Picture(const Svbrdf& maps, const Options& options)
+    : options_(options),
+      exact_(!options.ball && options.size == maps.size),
+      levels_(exact_ ? std::vector<Svbrdf>{maps} : mip_chain(maps)),
+      cos_rotate_(std::cos(options.rotate_deg * pi / 180)),
+      sin_rotate_(std::sin(options.rotate_deg * pi / 180)) {}
+
+// Turning the environment one way is turning everything else the other way.
+Vec3<double> Picture::to_environment(const Vec3<double>& w) const {
+  return {w.x * cos_rotate_ - w.z * sin_rotate_, w.y, w.x * sin_rotate_ + w.z * cos_rotate_};
+}
+
+double Picture::radius() const {
+  return 0.48 * std::min(options_.size.width, options_.size.height);
+}
+
+float Picture::coverage(int x, int y) const {
+  if (!options_.ball) return 1;
+  const double dx = x + 0.5 - 0.5 * options_.size.width, dy = y + 0.5 - 0.5 * options_.size.height;
+  return static_cast<float>(std::clamp(radius() - std::hypot(dx, dy) + 0.5, 0.0, 1.0));
+}
+
+// The frame's x axis runs along growing u (longitude), its y axis toward the upper pole; both are
+// defined everywhere, for longitude is, at the poles too.
+Picture::Spot Picture::spot_of_ball(double px, double py) const {
+  double x = (px - 0.5 * options_.size.width) / radius();
+  double y = (0.5 * options_.size.height - py) / radius();
+  const double r = std::hypot(x, y);
+  constexpr double rim = 0.9995;
+  if (r > rim) {
+    x *= rim / r;
+    y *= rim / r;
+  }
+  const double z = std::sqrt(1 - x * x - y * y);
+  const double longitude = std::atan2(x, z), latitude = std::asin(std::clamp(y, -1.0, 1.0));
+  const Vec3<double> along{std::cos(longitude), 0, -std::sin(longitude)};
+  const Vec3<double> normal{x, y, z};
+  // Two repeats around 2 pi, so that the map's aspect on the ball is 1 : 1 at the equator.
+  const double u = longitude / pi + 0.5, v = 0.5 - latitude / pi;
+  const Size map = levels_.front().size;
+  const double texels_per_pixel = std::max(map.width, map.height) / (pi * radius());
+  // Between the shorter and the longer axis of the pixel's footprint, which is 1 to 1/z.
+  const double level = std::log2(std::max(texels_per_pixel / std::sqrt(z), 1.0));
+  return {u, v, level, {along, cross(normal, along), normal}};
+}
+
+void Picture::read(double u, double v, double level, float* values) const {
+  const double last = static_cast<double>(levels_.size() - 1);
+  const double at = std::clamp(level, 0.0, last);
+  const auto fine = static_cast<size_t>(at);
+  const double blend = at - static_cast<double>(fine);
+  std::fill(values, values + svbrdf_planes, 0.0f);
+  add_bilinear(levels_[fine], u, v, 1 - blend, values);
+  if (blend > 0) add_bilinear(levels_[fine + 1], u, v, blend, values);
+}
+
+template <class F>
+void Picture::fill(int x, int y, int position, TexelBlock<F>& texels,
+                   Placement<F>& placement) const {
+  constexpr int lanes = lane_count<F>;
+  std::array<std::array<float, lanes>, 3> along, up, normal;
+  const Frame<double> plane{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Svbrdf& maps = levels_.front();
+  const double minified = std::max(static_cast<double>(maps.size.width) / options_.size.width,
+                                   static_cast<double>(maps.size.height) / options_.size.height);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int column = std::min(x + lane, options_.size.width - 1);
+    Frame<double> frame = plane;
+    float values[svbrdf_planes];
+    if (exact_) {
+      const auto planes = planes_of(maps);
+      for (int p = 0; p < svbrdf_planes; ++p) values[p] = planes[p]->row(y)[column];
+    } else {
+      const double px = column + position_x[position], py = y + position_y[position];
+      const Spot spot = options_.ball ? spot_of_ball(px, py)
+                                      : Spot{px / options_.size.width, py / options_.size.height,
+                                             std::log2(std::max(minified, 1.0)), plane};
+      frame = spot.frame;
+      // Half a level finer: the four positions average what is left.
+      read(spot.u, spot.v, spot.level - 0.5, values);
+    }
+    for (int p = 0; p < svbrdf_planes; ++p) texels[p][lane] = values[p];
+    put<F>(along, lane, to_environment(frame.x));
+    put<F>(up, lane, to_environment(frame.y));
+    put<F>(normal, lane, to_environment(frame.z));
+  }
+  placement.frame = {load_vector<F>(along), load_vector<F>(up), load_vector<F>(normal)};
+  const Vec3<double> viewer =
+      to_environment(options_.ball ? Vec3<double>{0, 0, 1} : options_.to_viewer);
+  placement.to_viewer = {F(static_cast<float>(viewer.x)), F(static_cast<float>(viewer.y)),
+                         F(static_cast<float>(viewer.z))};
+}
+
+template void Picture::fill<float>(int, int, int, TexelBlock<float>&, Placement<float>&) const;
+template void Picture::fill<WideFloat>(int, int, int, TexelBlock<WideFloat>&,
+                                       Placement<WideFloat>&) const;
+
+}  // namespace kiln

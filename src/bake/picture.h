@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "shading_point.h"
+
+namespace kiln {
+
+/// Subpixel positions of pictures that resample their maps: a rotated grid.
+inline constexpr int subpixels = 4;
+
+/// The plane or the ball that a picture shows, and the maps on it.
+///
+/// Flat: the picture is the plane itself, +X right and +Y up, lit and seen as from `to_viewer`; one
+/// output texel per map texel needs no filter. Ball: orthographic along -Z, u = longitude with two
+/// repeats, v = latitude; the edge is antialiased by its exact distance, the background
+/// transparent.
+class Picture {
+ public:
+  struct Options {
+    bool ball = false;
+    Size size;                        ///< of the picture [texel]
+    Vec3<double> to_viewer{0, 0, 1};  ///< of the plane; unit
+    double rotate_deg = 0;            ///< of the environment: positive turns +Z toward +X [degree]
+  };
+  Picture(const Svbrdf& maps, const Options& options);
+
+  Size size() const { return options_.size; }
+
+  /// How many positions inside a pixel are shaded: 1 where picture and map texels coincide.
+  int positions() const { return exact_ ? 1 : subpixels; }
+
+  /// Share of the pixel that the surface covers [0..1].
+  float coverage(int x, int y) const;
+
+  /// Map values and placement of lane_count<F> pixels from x on. Pixels off the ball read its rim.
+  template <class F>
+  void fill(int x, int y, int position, TexelBlock<F>& texels, Placement<F>& placement) const;
+
+ private:
+  struct Spot {
+    double u, v;
+    double level;  ///< of the mip chain, from the size of the pixel on the map
+    Frame<double> frame;
+  };
+  Spot spot_of_ball(double px, double py) const;
+  void read(double u, double v, double level, float* values) const;
+  Vec3<double> to_environment(const Vec3<double>& w) const;
+  double radius() const;
+
+  Options options_;
+  bool exact_;
+  std::vector<Svbrdf> levels_;
+  double cos_rotate_, sin_rotate_;
+};
+
+}  // namespace kiln

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "bakes.h"
+#include "kiln/brdf/models.h"
+#include "preview_rows.h"
+
+namespace kiln {
+namespace {
+
+using Settings = PreviewBake::Settings;
+
+double parse_angle(std::string_view text, const std::string& whole) {
+  double value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
+    throw Error(Fault::Usage,
+                fmt::format("view: found '{}', expected THETA,PHI [degree], e.g. 45,0", whole));
+  }
+  return value;
+}
+
+// THETA from the normal, PHI counter-clockwise from +X.
+Vec3<double> parse_view(const std::string& text) {
+  const size_t comma = std::min(text.find(','), text.size());
+  const std::string_view all(text);
+  const double theta = parse_angle(all.substr(0, comma), text) * pi / 180;
+  const double phi =
+      comma < text.size() ? parse_angle(all.substr(comma + 1), text) * pi / 180 : 0.0;
+  if (!(theta >= 0 && theta < 0.5 * pi)) {
+    throw Error(Fault::Usage, fmt::format("view: found THETA in '{}', expected [0, 90)", text));
+  }
+  return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+Size picture_size(const Settings& settings, Size map) {
+  if (settings.size.width > 0) return settings.size;
+  const int edge = std::min(1024, std::max(map.width, map.height));
+  return settings.shape == PreviewBake::Shape::Sphere ? Size{edge, edge} : map;
+}
+
+Picture make_picture(const Settings& settings, const Svbrdf& maps) {
+  const bool ball = settings.shape == PreviewBake::Shape::Sphere;
+  return Picture(
+      maps, {ball, picture_size(settings, maps.size), parse_view(settings.view), settings.rotate});
+}
+
+double mean_of(const Layers& image, const std::vector<std::string>& names) {
+  double sum = 0;
+  for (const std::string& name : names) {
+    const Plane& plane = *image.find(name);
+    for (int y = 0; y < plane.height(); ++y) {
+      for (float value : plane.texels_of_row(y)) sum += value;
+    }
+  }
+  return sum / (static_cast<double>(area(image.size)) * static_cast<double>(names.size()));
+}
+
+const std::vector<std::string> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
+constexpr int most_samples = 1 << 14;
+
+struct Rendered {
+  Layers image;
+  int samples = 0;
+  double mean_error = 0;
+};
+
+// Doubles the samples until the mean standard error is as asked for.
+Rendered render_reference(const Picture& picture, const ShadingInputs& inputs,
+                          const Settings& settings) {
+  int samples = whole_samples(settings.samples, picture.positions());
+  while (true) {
+    Layers image = estimate_picture(picture, inputs, samples, settings.seed);
+    const double error = mean_of(image, error_channels);
+    const bool good = settings.target_error <= 0 || error <= settings.target_error;
+    if (good || 2 * samples > most_samples) return {std::move(image), samples, error};
+    samples *= 2;
+  }
+}
+
+void subtract(Layers& from, const Layers& image) {
+  for (const char* name : {"R", "G", "B"}) {
+    auto layer = std::find_if(from.layers.begin(), from.layers.end(),
+                              [name](const Layer& l) { return l.name == name; });
+    const Plane& other = *image.find(name);
+    for (int y = 0; y < from.size.height; ++y) {
+      float* to = layer->plane.row(y);
+      for (int x = 0; x < from.size.width; ++x) to[x] -= other.at(x, y);
+    }
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> describe_file(const Settings& settings,
+                                                               const ShadingInputs& inputs) {
+  const auto word = [&](const char* name) {
+    for (const auto& param : PreviewBake::params()) {
+      if (param.facts.name != name) continue;
+      const bool shape = param.facts.name == "shape";
+      return param.facts.choices[static_cast<size_t>(shape ? static_cast<int>(settings.shape)
+                                                           : static_cast<int>(settings.mode))];
+    }
+    return std::string();
+  };
+  return {{"kiln:bake", "preview"},
+          {"kiln:shape", word("shape")},
+          {"kiln:mode", word("mode")},
+          {"kiln:models",
+           fmt::format("distribution=ggx masking=smith-correlated fresnel=schlick "
+                       "diffuse={} energy={}",
+                       inputs.diffuse,
+                       inputs.energy == Energy::Multiscatter ? "multiscatter" : "single")}};
+}
+
+}  // namespace
+
+Params<Settings> PreviewBake::params() {
+  return {
+      word_param("shape", &Settings::shape, {"flat", "sphere"}, "a plane or a ball"),
+      word_param("mode", &Settings::mode, {"reference", "split-sum", "difference"},
+                 "true light transport, what an engine shows, or the second minus the first"),
+      integer_param("samples", &Settings::samples, {1, most_samples},
+                    "light directions per texel (reference), rounded up to whole repetitions"),
+      number_param("target_error", &Settings::target_error, {0, 1e9}, "",
+                   "double the samples until the mean standard error is this; 0: do not"),
+      extent_param("size", &Settings::size, {1, 32768}, "of the picture"),
+      text_param("view", &Settings::view, "THETA,PHI of the viewer of a plane [degree]"),
+      number_param("rotate", &Settings::rotate, {-360, 360}, "[degree]",
+                   "turns the environment, positive turns +Z toward +X"),
+      integer_param("seed", &Settings::seed, {0, 2147483647}, "of the sample sets"),
+  };
+}
+
+Needs PreviewBake::needs(const Settings& settings) {
+  return {.material = true,
+          .light = true,
+          .prefiltered = settings.mode != Mode::Reference,
+          .albedo = true};
+}
+
+Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients) {
+  const Picture picture = make_picture(settings, *ingredients.material);
+  const ShadingInputs inputs{
+      ingredients.light, ingredients.albedo, ingredients.diffuse,
+      ingredients.energy_multiscatter ? Energy::Multiscatter : Energy::Single};
+  Baked baked;
+  Layers image;
+  if (settings.mode != Mode::Reference) image = approximate_picture(picture, inputs);
+  if (settings.mode != Mode::SplitSum) {
+    Rendered reference = render_reference(picture, inputs, settings);
+    baked.figures = {{"samples", reference.samples}, {"mean standard error", reference.mean_error}};
+    if (settings.target_error > 0 && reference.mean_error > settings.target_error) {
+      baked.notes.push_back(fmt::format("mean standard error {:.3g} after {} samples, asked for {}",
+                                        reference.mean_error, reference.samples,
+                                        settings.target_error));
+    }
+    if (settings.mode == Mode::Reference) {
+      image = std::move(reference.image);
+    } else {
+      subtract(image, reference.image);
+    }
+  }
+  baked.artifacts.push_back({"", "", std::move(image), "", describe_file(settings, inputs)});
+  return baked;
+}
+
+}  // namespace kiln

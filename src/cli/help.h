@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "verb.h"
+
+namespace kiln {
+
+/// Name of the group of options that every verb has; the help tells them in short at its end.
+inline constexpr const char* every_verb = "every verb";
+
+/// What there is: every verb on a line, and the exit codes.
+std::string overview();
+
+/// Arguments and options of one verb, wrapped to 100 columns.
+std::string help_of(const Verb& verb, const CLI::App& app);
+
+}  // namespace kiln

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "material_options.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "kiln/core/error.h"
+#include "kiln/core/names.h"
+#include "kiln/material/naming.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_material_file(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".yaml" || extension == ".yml" || extension == ".json";
+}
+
+void apply_reading(const std::vector<std::pair<std::string, std::string>>& reading,
+                   SetChoice& set) {
+  for (const auto& [key, text] : reading) {
+    if (text.empty()) continue;
+    if (key != "workflow") {
+      assign(workflow_params(), set.reading, key, text);
+    } else if (kebab(text) != "auto") {
+      set.workflow = parse_workflow(text);
+    }
+  }
+}
+
+}  // namespace
+
+void MaterialOptions::declare(CLI::App& app) {
+  app.add_option("--name", name, "which set, where a folder holds several")->type_name("SET");
+  app.add_option("--naming", naming, "schemes of file names to try, in order: kiln list namings")
+      ->type_name("WORD,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  reading.reserve(workflow_params().size());
+  for (const Param<WorkflowSettings>& param : workflow_params()) {
+    reading.emplace_back(param.facts.name, "");
+    app.add_option("--" + kebab(param.facts.name), reading.back().second,
+                   fmt::format("{}: {}", param.facts.meaning, fmt::join(param.facts.choices, ", ")))
+        ->type_name("WORD");
+  }
+}
+
+void MaterialOptions::add_to(Pipeline& pipeline) const {
+  SetChoice set;
+  if (is_material_file(path)) {
+    MaterialFile file = read_material_file(path);
+    set = std::move(file.set);
+    pipeline.material = file.material;
+  } else {
+    set.path = path;
+    set.naming = naming;
+  }
+  for (const std::string& scheme : naming) find_naming_scheme(scheme);
+  apply_reading(reading, set);
+  pipeline.sets.push_back(std::move(set));
+}
+
+void require_one_set(Pipeline& pipeline, const std::string& name) {
+  const std::vector<PlannedSet> sets = planned_sets(pipeline);
+  std::vector<std::string> names;
+  for (const PlannedSet& set : sets) {
+    names.push_back(set.name);
+    const bool chosen = name.empty() ? sets.size() == 1 : set.name == name;
+    if (!chosen) continue;
+    if (sets.size() > 1) pipeline.sets.at(0).workflow = set.reading.workflow;
+    return;
+  }
+  if (!name.empty()) throw Error(Fault::Usage, "--name: " + unknown_name("set", name, names));
+  throw Error(Fault::Usage,
+              fmt::format("found {} texture sets: {}; choose one with --name or --workflow",
+                          names.size(), fmt::join(names, ", ")));
+}
+
+}  // namespace kiln

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "kiln/pipeline/plan.h"
+#include "verb.h"
+
+namespace kiln {
+
+/// A MATERIAL on the command line: a folder of maps or a material file, and how to read it.
+struct MaterialOptions {
+  std::string path, name;
+  std::vector<std::string> naming;
+  std::vector<std::pair<std::string, std::string>> reading;  ///< keys of the set's block
+
+  void declare(CLI::App& app);
+
+  /// Puts the sets of this material, and its model, into the pipeline.
+  /// @error Fault::Usage for unknown words, Fault::Input when the file cannot be read
+  void add_to(Pipeline& pipeline) const;
+};
+
+/// Leaves one texture set in the pipeline.
+/// @error Fault::Usage that lists the sets when there are several and none is named
+void require_one_set(Pipeline& pipeline, const std::string& name);
+
+}  // namespace kiln

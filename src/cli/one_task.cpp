@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "one_task.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "console.h"
+#include "interruption.h"
+#include "kiln/core/error.h"
+#include "kiln/pipeline/schema.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string described(const ParamFacts& facts) {
+  std::string text = facts.meaning;
+  if (!facts.unit.empty()) text += " " + facts.unit;
+  if (!facts.choices.empty()) text += fmt::format(": {}", fmt::join(facts.choices, ", "));
+  const bool shown = !facts.default_text.empty() && facts.kind != ParamFacts::Kind::Flag;
+  if (shown) text += fmt::format(" (default {})", facts.default_text);
+  return text;
+}
+
+std::string placeholder(const ParamFacts& facts) {
+  switch (facts.kind) {
+    case ParamFacts::Kind::Flag:
+      return "";
+    case ParamFacts::Kind::Integer:
+      return "N";
+    case ParamFacts::Kind::Number:
+      return "X";
+    case ParamFacts::Kind::Word:
+      return "WORD";
+    case ParamFacts::Kind::Extent:
+      return "N|WxH";
+    case ParamFacts::Kind::Text:
+      return "TEXT";
+  }
+  return "";
+}
+
+const BakeFacts& facts_of_bake(const std::string& bake) {
+  const auto& bakes = all_bakes();
+  const auto found = std::find_if(bakes.begin(), bakes.end(),
+                                  [&](const BakeFacts& facts) { return facts.name == bake; });
+  if (found == bakes.end()) throw Error(Fault::Internal, "no bake is named " + bake);
+  return *found;
+}
+
+void print_task(const fs::path& folder, const TaskRecord& task) {
+  for (const std::string& output : task.outputs) {
+    fmt::print("{}\n", (folder / output).lexically_normal().string());
+  }
+  size_t width = 0;
+  for (const auto& figure : task.figures) width = std::max(width, figure.first.size());
+  for (const auto& [name, value] : task.figures) {
+    fmt::print("  {:<{}}  {:.4g}\n", name, width, value);
+  }
+}
+
+void print_notes(const Report& report) {
+  const auto print = [](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+  };
+  for (const SetRecord& set : report.sets) fmt::print(stderr, "{}\n", told(set));
+  for (const EnvironmentRecord& light : report.environments) {
+    fmt::print(stderr, "{}\n", told(light));
+  }
+  for (const TaskRecord& task : report.tasks) print(task.notes);
+}
+
+// A file's folder is the output folder; a folder is its own.
+fs::path name_output(BakeChoice& bake, const std::string& output) {
+  if (facts_of_bake(bake.bake).product == Product::Folder) {
+    bake.out = ".";
+    return output;
+  }
+  const fs::path path(output);
+  bake.out = path.filename().string();
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+BakeOptions::BakeOptions(CLI::App& app, const std::string& bake,
+                         const std::vector<std::string>& except)
+    : bake_(bake) {
+  for (const Key& key : bake_block(facts_of_bake(bake)).keys) {
+    const std::string& name = key.facts.name;
+    if (name == "bake" || name == "out" || name == "env") continue;
+    if (!std::count(except.begin(), except.end(), name)) declare(app, key.facts);
+  }
+}
+
+void BakeOptions::declare(CLI::App& app, const ParamFacts& facts) {
+  const auto option = std::make_shared<Option>();
+  option->key = facts.name;
+  const std::string name = "--" + kebab(facts.name);
+  if (facts.kind == ParamFacts::Kind::Flag) {
+    option->option = app.add_flag(name + "{true}", option->text, described(facts));
+  } else {
+    option->option = app.add_option(name, option->text, described(facts));
+    option->option->type_name(placeholder(facts));
+  }
+  options_.push_back(option);
+}
+
+BakeChoice BakeOptions::choice(std::vector<std::pair<std::string, std::string>> keys) const {
+  keys.emplace_back("bake", bake_);
+  keys.emplace_back("out", "output");
+  for (const auto& option : options_) {
+    if (option->option->count() > 0) keys.emplace_back(option->key, option->text);
+  }
+  return bake_choice(keys);
+}
+
+int run_one_task(Pipeline pipeline, const std::string& output, const Globals& globals) {
+  if (output.empty()) throw Error(Fault::Usage, "no output is given: -o FILE, or -o DIR");
+  const Interruption interruption;
+  pipeline.color.config = chosen_config(globals.ocio, pipeline.color.config);
+  const fs::path folder = name_output(pipeline.bakes.at(0), output);
+  const Plan plan = make_plan(pipeline, folder);
+  Watcher watcher = console_watcher(ProgressStyle::None, globals);
+  watcher.loaded = {};
+  watcher.lit = {};
+  watcher.ended = {};
+  watcher.interrupted = [&] { return interruption.signal(); };
+  const Report report = run_plan(plan, Records::None, watcher);
+  if (!globals.quiet) print_notes(report);
+  if (report.signal != 0) return exit_code(report);
+  const TaskRecord& task = report.tasks.at(0);
+  if (task.fault) throw Error(*task.fault);
+  if (globals.json) {
+    fmt::print("{}", report_json(report));
+  } else if (!globals.quiet) {
+    print_task(folder, task);
+  }
+  return 0;
+}
+
+}  // namespace kiln

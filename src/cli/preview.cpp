@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "environment_options.h"
+#include "kiln/core/error.h"
+#include "material_options.h"
+#include "one_task.h"
+#include "verb.h"
+
+namespace kiln {
+namespace {
+
+struct PreviewArguments {
+  std::string output;
+  MaterialOptions material;
+  EnvironmentOptions environment;
+  std::unique_ptr<BakeOptions> options;
+};
+
+int run(const PreviewArguments& arguments, const Globals& globals) {
+  if (arguments.material.path.empty()) {
+    throw Error(Fault::Usage, "expected a MATERIAL: a folder of maps or a material file");
+  }
+  if (arguments.environment.path.empty()) {
+    throw Error(Fault::Usage, "no environment is given: --env IMAGE");
+  }
+  Pipeline pipeline;
+  pipeline.environments.push_back(arguments.environment.choice());
+  pipeline.bakes.push_back(arguments.options->choice({{"env", "env"}}));
+  arguments.material.add_to(pipeline);
+  require_one_set(pipeline, arguments.material.name);
+  return run_one_task(std::move(pipeline), arguments.output, globals);
+}
+
+Action declare(CLI::App& app) {
+  const auto arguments = std::make_shared<PreviewArguments>();
+  app.add_option("MATERIAL", arguments->material.path, "folder of maps, or a material file")
+      ->type_name("");
+  app.add_option("--env", arguments->environment.path, "lat-long image to light it with")
+      ->type_name("IMAGE");
+  app.add_option("-o,--output", arguments->output, "file to make: .exr .png .jpg .hdr .tif")
+      ->type_name("FILE");
+  arguments->options = std::make_unique<BakeOptions>(app, "preview", std::vector<std::string>{});
+  arguments->material.declare(app);
+  arguments->environment.declare(app, "");
+  return [arguments](const Globals& globals) { return run(*arguments, globals); };
+}
+
+}  // namespace
+
+Verb preview_verb() {
+  return {"preview", "MATERIAL --env IMAGE -o FILE", "lit picture of a texture set", declare};
+}
+
+}  // namespace kiln

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "openimageio_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "container_checks.h"
+#include "kiln/core/error.h"
+#include "openimageio_loader.h"
+#include "orientation.h"
+#include "samples.h"
+
+namespace kiln::io {
+namespace {
+
+[[noreturn]] void refuse(const std::string& reason) { throw Error(Fault::Input, reason); }
+
+// One line, without what the library puts at its end.
+std::string last_error() {
+  std::string text = openimageio().last_error();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text.erase(text.find_last_not_of(" .") + 1);
+  return text.empty() ? "the decoder gives no reason" : text;
+}
+
+struct Opened {
+  std::unique_ptr<module::Reader, void (*)(module::Reader*)> reader;
+  module::StoredImage stored;
+};
+
+// What the bytes themselves show, before a decoder sees them.
+void check_container(const std::string& format, ByteView bytes, const ReadLimits& limits) {
+  if (format != "png") return;
+  const auto header = png_header(bytes);
+  if (!header) refuse("damaged PNG header");
+  require_within(limits, header->size.width, header->size.height, 1);
+  if (!png_may_hold_its_pixels(*header, bytes.size())) {
+    refuse(fmt::format("truncated: the header claims {} x {} texels, which {} bytes cannot hold",
+                       header->size.width, header->size.height, bytes.size()));
+  }
+}
+
+Opened open(const std::string& format, ByteView bytes, const ReadLimits& limits) {
+  check_container(format, bytes, limits);
+  const module::Face& face = openimageio();
+  Opened opened{{nullptr, face.close}, {}};
+  opened.reader.reset(face.open(format.c_str(), bytes.data(), bytes.size(), &opened.stored));
+  if (!opened.reader) refuse(fmt::format("damaged {} file: {}", format, last_error()));
+  require_within(limits, opened.stored.width, opened.stored.height, opened.stored.channels);
+  return opened;
+}
+
+std::optional<std::string> color_tag(const std::string& format, ByteView bytes,
+                                     const Attributes& attributes) {
+  if (format == "png") return png_color_tag(bytes);
+  for (const auto& [name, text] : attributes) {
+    if (name == "ICCProfile:profile_description") return "icc: " + text;
+  }
+  return std::nullopt;
+}
+
+// The library's own notes about a file are no metadata of it.
+bool is_of_the_file(std::string_view name) {
+  return !name.starts_with("oiio:") && !name.starts_with("png:") && !name.starts_with("jpeg:") &&
+         !name.starts_with("tiff:") && !name.starts_with("ICCProfile");
+}
+
+FileFacts facts_of(const std::string& format, ByteView bytes, const Opened& opened) {
+  const module::Face& face = openimageio();
+  const module::StoredImage& stored = opened.stored;
+  FileFacts facts;
+  facts.format = format;
+  facts.size = oriented(Size{stored.width, stored.height}, stored.orientation);
+  facts.type = stored.type;
+  for (int c = 0; c < stored.channels; ++c) {
+    facts.channels.emplace_back(face.channel_name(opened.reader.get(), c));
+  }
+  Attributes all;
+  for (int n = 0;; ++n) {
+    const module::Attribute text = face.text(opened.reader.get(), n);
+    if (text.name == nullptr) break;
+    all.emplace_back(text.name, text.text);
+  }
+  facts.color_space_tag = color_tag(format, bytes, all);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(facts.attributes),
+               [](const auto& attribute) { return is_of_the_file(attribute.first); });
+  note_orientation(stored.orientation, facts);
+  return facts;
+}
+
+// A row of samples -> the row of each plane.
+void place_row(const std::byte* samples, const module::StoredImage& stored, int y, Layers& image) {
+  const auto channels = static_cast<size_t>(stored.channels);
+  const auto width = static_cast<size_t>(stored.width);
+  for (size_t c = 0; c < channels; ++c) {
+    load_samples(samples + c * sample_bytes(stored.type), stored.type, channels,
+                 {image.layers[c].plane.row(y), width});
+  }
+}
+
+int rows_of_block(const module::StoredImage& stored) {
+  constexpr int least = 64;
+  return (least + stored.block_rows - 1) / stored.block_rows * stored.block_rows;
+}
+
+// Planes are made once the first block could be read, so a header that promises much and has
+// nothing behind it costs little.
+Layers read_pixels(const Opened& opened, const std::vector<std::string>& names,
+                   const std::string& format) {
+  const module::StoredImage& stored = opened.stored;
+  const int block = rows_of_block(stored);
+  const size_t row_bytes = static_cast<size_t>(stored.width) *
+                           static_cast<size_t>(stored.channels) * sample_bytes(stored.type);
+  std::vector<std::byte> samples(row_bytes * static_cast<size_t>(std::min(block, stored.height)));
+  Layers image;
+  for (int first = 0; first < stored.height; first += block) {
+    const int rows = std::min(block, stored.height - first);
+    if (!openimageio().read_rows(opened.reader.get(), first, rows, samples.data())) {
+      refuse(fmt::format("damaged {} file: {}", format, last_error()));
+    }
+    if (image.layers.empty()) image = make_layers({stored.width, stored.height}, names);
+    for (int i = 0; i < rows; ++i) {
+      place_row(samples.data() + static_cast<size_t>(i) * row_bytes, stored, first + i, image);
+    }
+  }
+  return image;
+}
+
+// TIFF says whether colour was multiplied by alpha; 0 stays where nothing is left to divide.
+void divide_by_alpha(int alpha_channel, Layers& image) {
+  const Plane alpha = image.layers[static_cast<size_t>(alpha_channel)].plane;
+  for (size_t c = 0; c < image.layers.size(); ++c) {
+    if (channel_rank(image.layers[c].name) >= channel_rank("A")) continue;
+    Plane& plane = image.layers[c].plane;
+    for (int y = 0; y < plane.height(); ++y) {
+      for (int x = 0; x < plane.width(); ++x) {
+        if (alpha.at(x, y) > 0.0f) plane.at(x, y) /= alpha.at(x, y);
+      }
+    }
+  }
+}
+
+std::vector<module::Attribute> texts_of(const Attributes& attributes) {
+  std::vector<module::Attribute> texts;
+  for (const auto& [name, text] : attributes) texts.push_back({name.c_str(), text.c_str()});
+  return texts;
+}
+
+module::WrittenImage described(const std::string& format, Size size, const StoredPlanes& stored,
+                               PixelType type, const std::vector<module::Attribute>& texts) {
+  module::WrittenImage image;
+  image.format = format.c_str();
+  image.width = size.width;
+  image.height = size.height;
+  image.channels = static_cast<int>(stored.planes.size());
+  image.type = type;
+  image.alpha_channel = stored.alpha_channel;
+  image.texts = texts.data();
+  image.text_count = static_cast<int>(texts.size());
+  return image;
+}
+
+void fill_row(const StoredPlanes& stored, PixelType type, int y, std::byte* samples,
+              WriteFacts& facts) {
+  for (size_t c = 0; c < stored.planes.size(); ++c) {
+    if (stored.planes[c] == nullptr) continue;
+    store_samples(stored.planes[c]->texels_of_row(y), type, stored.planes.size(),
+                  samples + c * sample_bytes(type), facts);
+  }
+}
+
+[[noreturn]] void fail_encoding(const std::string& format) {
+  throw Error(Fault::Output, fmt::format("cannot encode as {}: {}", format, last_error()));
+}
+
+}  // namespace
+
+FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
+                                 const ReadLimits& limits) {
+  return facts_of(format, bytes, open(format, bytes, limits));
+}
+
+ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits) {
+  const Opened opened = open(format, bytes, limits);
+  ImageFile file;
+  file.facts = facts_of(format, bytes, opened);
+  if (format == "jpeg" && !jpeg_is_complete(bytes)) {
+    refuse("truncated JPEG file: it has no end of image");
+  }
+  if (format == "png" && !png_is_complete(bytes)) {
+    refuse("truncated PNG file: its chunks do not run to IEND");
+  }
+  try {
+    file.image = read_pixels(opened, file.facts.channels, format);
+  } catch (const std::bad_alloc&) {
+    refuse("too large for memory");
+  }
+  if (format == "tiff" && opened.stored.premultiplied != 0) {
+    divide_by_alpha(opened.stored.alpha_channel, file.image);
+    file.facts.notes.emplace_back("colour was stored multiplied by alpha; it was divided");
+  }
+  file.image = oriented(std::move(file.image), opened.stored.orientation);
+  return file;
+}
+
+std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,
+                                  const WriteOptions& options, WriteFacts& facts) {
+  const module::Face& face = openimageio();
+  const std::vector<module::Attribute> texts = texts_of(options.attributes);
+  const module::WrittenImage image = described(format, size, stored, options.type, texts);
+  const std::unique_ptr<module::Writer, void (*)(module::Writer*)> writer(face.create(&image),
+                                                                          face.drop);
+  if (!writer) fail_encoding(format);
+  constexpr int block = 64;
+  const size_t row_bytes =
+      static_cast<size_t>(size.width) * stored.planes.size() * sample_bytes(options.type);
+  std::vector<std::byte> samples(row_bytes * block);
+  for (int first = 0; first < size.height; first += block) {
+    const int rows = std::min(block, size.height - first);
+    for (int i = 0; i < rows; ++i) {
+      fill_row(stored, options.type, first + i, samples.data() + static_cast<size_t>(i) * row_bytes,
+               facts);
+    }
+    if (!face.write_rows(writer.get(), first, rows, samples.data())) fail_encoding(format);
+  }
+  size_t count = 0;
+  const void* bytes = face.finish(writer.get(), &count);
+  if (bytes == nullptr) fail_encoding(format);
+  return {static_cast<const char*>(bytes), count};
+}
+
+}  // namespace kiln::io

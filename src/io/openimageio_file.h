@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "file_bytes.h"
+#include "kiln/io/image_file.h"
+
+namespace kiln::io {
+
+/// @param format  OpenImageIO's name of the reader, told by the contents
+/// @error Fault::Input, without the path
+FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
+                                 const ReadLimits& limits);
+
+/// @error Fault::Input, without the path
+ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits);
+
+/// Planes in the order of the file's channels; nullptr stands for a channel of zeros.
+struct StoredPlanes {
+  std::vector<const Plane*> planes;
+  int alpha_channel = -1;
+};
+
+/// The whole file in memory. @error Fault::Output, without the path
+std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,
+                                  const WriteOptions& options, WriteFacts& facts);
+
+}  // namespace kiln::io

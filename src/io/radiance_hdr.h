@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "file_bytes.h"
+#include "kiln/io/image_file.h"
+
+namespace kiln::io {
+
+/// Radiance picture (RGBE): header only. @error Fault::Input, without the path
+FileFacts inspect_hdr(ByteView bytes, const ReadLimits& limits);
+
+/// Pixels flat or run-length encoded in either way; all eight orientations.
+///
+///     value = mantissa * 2^(exponent - 136), 0 where the exponent is 0
+///
+/// @error  Fault::Input, without the path, when the scan lines do not fill the claimed size
+/// @source Ward, "Real Pixels", Graphics Gems II, 1991; Radiance reference, "picture" file format
+ImageFile read_hdr(ByteView bytes, const ReadLimits& limits);
+
+/// The image as RGBE, run-length encoded; mantissas rounded to nearest.
+/// One channel is repeated, a missing third is 0.
+/// @valid 1 to 3 planes, in the order R G B
+std::string encode_hdr(const std::vector<const Plane*>& planes, WriteFacts& facts);
+
+}  // namespace kiln::io

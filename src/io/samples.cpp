@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "samples.h"
+
+#include <Imath/half.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+
+#include "kiln/core/error.h"
+
+namespace kiln::io {
+namespace {
+
+constexpr float half_max = 65504.0f;
+
+template <class Stored>
+float loaded(Stored value) {
+  if constexpr (std::is_integral_v<Stored>) {
+    return static_cast<float>(value) / static_cast<float>(std::numeric_limits<Stored>::max());
+  } else {
+    return static_cast<float>(value);
+  }
+}
+
+template <class Stored>
+Stored quantised(float value, WriteFacts& facts) {
+  if (std::isnan(value)) {
+    ++facts.not_a_number;
+    return 0;
+  }
+  const bool inside = value >= 0.0f && value <= 1.0f;
+  if (!inside && std::isfinite(value)) count_clamped(value, facts);
+  constexpr double max = std::numeric_limits<Stored>::max();
+  return static_cast<Stored>(std::lround(std::clamp(static_cast<double>(value), 0.0, 1.0) * max));
+}
+
+half narrowed(float value, WriteFacts& facts) {
+  if (std::isfinite(value) && std::abs(value) > half_max) {
+    count_clamped(value, facts);
+    return half(std::copysign(half_max, value));
+  }
+  return half(value);
+}
+
+template <class Stored>
+void load_row(const std::byte* stored, size_t step, std::span<float> row) {
+  for (size_t x = 0; x < row.size(); ++x) {
+    Stored value;
+    std::memcpy(&value, stored + x * step * sizeof(Stored), sizeof value);
+    row[x] = loaded(value);
+  }
+}
+
+template <class Stored, class Narrow>
+void store_row(std::span<const float> row, size_t step, std::byte* stored, Narrow narrow) {
+  for (size_t x = 0; x < row.size(); ++x) {
+    const Stored value = narrow(row[x]);
+    std::memcpy(stored + x * step * sizeof(Stored), &value, sizeof value);
+  }
+}
+
+}  // namespace
+
+size_t sample_bytes(PixelType type) {
+  switch (type) {
+    case PixelType::Uint8:
+      return 1;
+    case PixelType::Uint16:
+    case PixelType::Half:
+      return 2;
+    case PixelType::Float:
+      return 4;
+  }
+  return 4;
+}
+
+void load_samples(const std::byte* stored, PixelType type, size_t step, std::span<float> row) {
+  switch (type) {
+    case PixelType::Uint8:
+      return load_row<uint8_t>(stored, step, row);
+    case PixelType::Uint16:
+      return load_row<uint16_t>(stored, step, row);
+    case PixelType::Half:
+      return load_row<half>(stored, step, row);
+    case PixelType::Float:
+      return load_row<float>(stored, step, row);
+  }
+}
+
+void store_samples(std::span<const float> row, PixelType type, size_t step, std::byte* stored,
+                   WriteFacts& facts) {
+  const auto narrow8 = [&](float value) { return quantised<uint8_t>(value, facts); };
+  const auto narrow16 = [&](float value) { return quantised<uint16_t>(value, facts); };
+  const auto narrow_half = [&](float value) { return narrowed(value, facts); };
+  switch (type) {
+    case PixelType::Uint8:
+      return store_row<uint8_t>(row, step, stored, narrow8);
+    case PixelType::Uint16:
+      return store_row<uint16_t>(row, step, stored, narrow16);
+    case PixelType::Half:
+      return store_row<half>(row, step, stored, narrow_half);
+    case PixelType::Float:
+      return store_row<float>(row, step, stored, [](float value) { return value; });
+  }
+}
+
+void count_clamped(float value, WriteFacts& facts) {
+  ++facts.clamped;
+  facts.largest_clamped = std::max(facts.largest_clamped, std::abs(static_cast<double>(value)));
+}
+
+void require_within(const ReadLimits& limits, long long width, long long height,
+                    long long channels) {
+  if (width < 1 || height < 1 || channels < 1) {
+    throw Error(Fault::Input, fmt::format("the header claims {} x {} texels and {} channels", width,
+                                          height, channels));
+  }
+  if (width > limits.max_texels / height) {
+    throw Error(Fault::Input,
+                fmt::format("the header claims {} x {} texels; more than {} are not read", width,
+                            height, limits.max_texels));
+  }
+  if (channels > limits.max_channels) {
+    throw Error(Fault::Input,
+                fmt::format("the header claims {} channels; more than {} are not read", channels,
+                            limits.max_channels));
+  }
+}
+
+int channel_rank(std::string_view name) {
+  constexpr std::string_view first = "RGBYA";
+  const size_t at = name.size() == 1 ? first.find(name) : std::string_view::npos;
+  return static_cast<int>(std::min(at, first.size()));
+}
+
+}  // namespace kiln::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "kiln/io/image_file.h"
+
+namespace kiln::io {
+
+/// Bytes of one sample.
+size_t sample_bytes(PixelType type);
+
+/// Stored sample -> float: integers divided by their largest value (correctly rounded), half exact.
+/// @param stored  samples of `type`, the first of the row at the front
+/// @param step    [sample] from one to the next
+void load_samples(const std::byte* stored, PixelType type, size_t step, std::span<float> row);
+
+/// float -> stored sample: integers round(v * max), half rounded to nearest; finite values beyond
+/// the range are clamped and counted in `facts`, NaN becomes 0 in integers and is counted.
+void store_samples(std::span<const float> row, PixelType type, size_t step, std::byte* stored,
+                   WriteFacts& facts);
+
+/// Notes a clamped value.
+void count_clamped(float value, WriteFacts& facts);
+
+/// @error Fault::Input when a header claims more than is allowed or not one texel
+void require_within(const ReadLimits& limits, long long width, long long height,
+                    long long channels);
+
+/// Where a channel stands in Layers: R G B (or Y), then A, then all others as they came.
+int channel_rank(std::string_view name);
+
+}  // namespace kiln::io

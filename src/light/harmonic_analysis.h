@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "color_planes.h"
+
+namespace kiln {
+
+/// a_lm of three colours.
+struct ColorCoefficient {
+  std::array<double, 3> re{}, im{};
+};
+
+/// The expansion of point masses at the texel centres of a lat-long image, m >= 0; a_l-m is the
+/// conjugate.
+struct Expansion {
+  int order = 0;
+  std::vector<std::vector<ColorCoefficient>> columns;  ///< [m][l - m]
+  std::vector<double> constant;  ///< a_l0 of the constant 1 as point masses, [order + 1]
+};
+
+/// a_lm = sum over texels of radiance times conj(Y_lm) times solid angle, which is exact for the
+/// point masses whatever the order.
+/// @param radiance  [height][width * 3] colours side by side
+/// @valid order < width, order < 1900
+Expansion analyse(Size size, const std::vector<std::vector<double>>& radiance, int order);
+
+}  // namespace kiln

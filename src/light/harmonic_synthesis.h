@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "harmonic_analysis.h"
+#include "sphere_field.h"
+#include "zonal_kernel.h"
+
+namespace kiln {
+
+/// The convolution of an expansion with a kernel, on a grid fine enough for 8 x 8 interpolation:
+/// three colours, and as the fourth value the same convolution of the constant 1 as point masses.
+/// @valid kernel.order() <= expansion.order
+SphereField convolve(const Expansion& expansion, const ZonalKernel& kernel);
+
+}  // namespace kiln

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiln/bake/products.h"
+#include "kiln/color/color.h"
+#include "kiln/material/svbrdf.h"
+#include "kiln/pipeline/report.h"
+
+namespace kiln {
+
+struct LoadedSet {
+  Svbrdf svbrdf;
+  SetRecord record;
+};
+
+/// Reads the maps of a set that its workflow needs, brings colours into the working space and
+/// leaves numbers alone.
+/// @error the set's own fault; Fault::Input naming every missing file at once, or the unreadable
+/// one
+LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorConfig& config);
+
+struct LoadedLight {
+  LightMade made;
+  EnvironmentRecord record;
+};
+
+/// Reads an environment and makes it ready to light with.
+LoadedLight load_light(const EnvironmentChoice& environment, const ColorChoice& color,
+                       const ColorConfig& config, const LightSettings& settings);
+
+}  // namespace kiln

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/pipeline/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "kiln/core/error.h"
+#include "kiln/pipeline/schema.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Blocks are read after check() found no mistake in their shape, so reading them is plain; what
+// only the meaning of a word can show is still added to the mistakes.
+struct Reading {
+  fs::path folder;  ///< of the file
+  Mistakes& mistakes;
+};
+
+std::string text_at(const Node& block, std::string_view key, std::string initial = {}) {
+  const Node* node = block.find(key);
+  return node ? node->text : std::move(initial);
+}
+
+// Calls use(node) when the key is there.
+template <class Use>
+void with(const Node& block, std::string_view key, Use&& use) {
+  if (const Node* node = block.find(key)) use(*node);
+}
+
+// A block, or the scalar that stands for its key `path`.
+std::string path_text(const Node& node) {
+  return node.kind == Node::Kind::Scalar ? node.text : text_at(node, "path");
+}
+
+size_t index_of(const std::string& text, const std::vector<std::string>& words) {
+  const auto found = std::find(words.begin(), words.end(), kebab(text));
+  return static_cast<size_t>(found - words.begin());
+}
+
+std::vector<std::string> scalars(const Node& node) {
+  if (node.kind == Node::Kind::Scalar) return {node.text};
+  std::vector<std::string> texts;
+  for (const Node& item : node.items) texts.push_back(item.text);
+  return texts;
+}
+
+// Lists of numbers are one text with commas between; lists of texts take semicolons, for a text
+// may hold commas itself.
+std::string one_text(const Node& node) {
+  const std::vector<std::string> texts = scalars(node);
+  const bool numbers = std::all_of(texts.begin(), texts.end(), [](const std::string& text) {
+    return text.find_first_not_of("0123456789.+-eE") == std::string::npos;
+  });
+  return fmt::format("{}", fmt::join(texts, numbers ? "," : ";"));
+}
+
+ColorChoice read_color(const Node& node, const Reading& reading) {
+  ColorChoice color;
+  color.config = text_at(node, "config");
+  if (color.config == "$OCIO") {
+    color.config = chosen_config("", "");
+  } else if (!color.config.empty() && color.config != "builtin") {
+    color.config = joined(reading.folder, color.config).string();
+  }
+  color.working = text_at(node, "working", color.working);
+  with(node, "on_conversion", [&](const Node& word) {
+    color.on_conversion =
+        static_cast<ColorChoice::OnConversion>(index_of(word.text, {"allow", "warn", "refuse"}));
+  });
+  return color;
+}
+
+EnvironmentChoice read_environment(const Entry& entry, const Reading& reading) {
+  EnvironmentChoice environment;
+  environment.name = entry.key;
+  environment.place = entry.value.place;
+  environment.path = joined(reading.folder, path_text(entry.value));
+  environment.color_space = text_at(entry.value, "color_space");
+  environment.rotate = parse_number({}, text_at(entry.value, "rotate", "0"));
+  environment.fix = kebab(text_at(entry.value, "fix", environment.fix));
+  return environment;
+}
+
+std::array<float, 3> read_constant(const std::string& text) {
+  ParamFacts facts;
+  facts.name = "value";
+  std::vector<float> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    size_t first = begin;
+    while (first < comma && text[first] == ' ') ++first;
+    numbers.push_back(static_cast<float>(parse_number(facts, text.substr(first, comma - first))));
+    begin = comma + 1;
+  }
+  if (numbers.size() == 1) return {numbers[0], numbers[0], numbers[0]};
+  if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
+  throw Error(Fault::Usage, fmt::format("value: found '{}', expected one number or three", text));
+}
+
+void read_map_keys(const Node& node, MapChoice& map) {
+  map.channel = kebab(text_at(node, "channel"));
+  if (map.channel == "rgb" && slot_facts(map.slot).channels == 1) {
+    throw Error(Fault::Usage, fmt::format("channel: found 'rgb', but {} takes one of r, g, b, a",
+                                          slot_name(map.slot)));
+  }
+  map.color_space = text_at(node, "color_space");
+  with(node, "convention", [&](const Node& word) {
+    map.convention = static_cast<NormalConvention>(index_of(word.text, {"auto", "gl", "dx"}));
+  });
+  with(node, "value", [&](const Node& value) { map.value = read_constant(one_text(value)); });
+  with(node, "encoding",
+       [&](const Node& word) { map.encoding = parse_specular_encoding(word.text); });
+}
+
+MapChoice read_map(Slot slot, const Entry& entry, const Reading& reading) {
+  MapChoice map;
+  map.slot = slot;
+  map.place = entry.value.place;
+  attempt(reading.mistakes, map.place, [&] {
+    read_map_keys(entry.value, map);
+    const std::string path = path_text(entry.value);
+    if (path.empty() == !map.value.has_value()) {
+      throw Error(Fault::Usage, fmt::format("{}: expected either a path or a value", entry.key));
+    }
+    if (!path.empty()) map.path = joined(reading.folder, path);
+  });
+  return map;
+}
+
+std::vector<MapChoice> read_maps(const Node& node, const Reading& reading) {
+  std::vector<MapChoice> maps;
+  std::map<Slot, std::string> seen;
+  for (const Entry& entry : node.entries) {
+    attempt(reading.mistakes, entry.place, [&] {
+      const Slot slot = parse_slot(entry.key);
+      const auto [first, fresh] = seen.emplace(slot, entry.key);
+      if (!fresh) {
+        throw Error(Fault::Usage,
+                    fmt::format("'{}' fills the same slot as '{}'", entry.key, first->second));
+      }
+      maps.push_back(read_map(slot, entry, reading));
+    });
+  }
+  return maps;
+}
+
+void read_reading(const Node& node, SetChoice& set) {
+  for (const Param<WorkflowSettings>& param : workflow_params()) {
+    if (param.facts.name == "workflow") continue;
+    with(node, param.facts.name, [&](const Node& word) { param.assign(set.reading, word.text); });
+  }
+  with(node, "workflow", [&](const Node& word) {
+    if (kebab(word.text) != "auto") set.workflow = parse_workflow(word.text);
+  });
+}
+
+SetChoice read_set(const Node& node, const Reading& reading) {
+  SetChoice set;
+  set.place = node.place;
+  set.name = text_at(node, "name");
+  with(node, "glob", [&](const Node& at) { set.glob = joined(reading.folder, at.text).string(); });
+  with(node, "path", [&](const Node& at) { set.path = joined(reading.folder, at.text); });
+  with(node, "maps", [&](const Node& maps) { set.maps = read_maps(maps, reading); });
+  with(node, "naming", [&](const Node& names) { set.naming = scalars(names); });
+  read_reading(node, set);
+  const int sources = int{node.find("glob") != nullptr} + int{node.find("path") != nullptr} +
+                      int{node.find("maps") != nullptr};
+  if (sources != 1) reading.mistakes.add(node.place, "a set needs one of: glob, path, maps");
+  if (!set.glob.empty() && !set.name.empty()) {
+    reading.mistakes.add(node.place, "a glob makes many sets and cannot have one name");
+  }
+  if (node.find("maps") && set.name.empty()) {
+    reading.mistakes.add(node.place, "a set made of maps needs a name");
+  }
+  return set;
+}
+
+MaterialChoice read_material(const Node& node) {
+  MaterialChoice material;
+  const std::string workflow = text_at(node, "workflow", "auto");
+  if (kebab(workflow) != "auto") material.workflow = parse_workflow(workflow);
+  with(node, "specular",
+       [&](const Node& word) { material.specular = parse_specular_encoding(word.text); });
+  material.diffuse = kebab(text_at(node, "diffuse", material.diffuse));
+  material.multiscatter = kebab(text_at(node, "energy", "multiscatter")) == "multiscatter";
+  return material;
+}
+
+PixelType pixel_type(const std::string& word) {
+  return static_cast<PixelType>(index_of(word, {"uint8", "uint16", "half", "float"}));
+}
+
+// True when the key is one of the runner's own.
+bool read_runner_key(const Entry& entry, BakeChoice& bake) {
+  const std::string key = snake(entry.key);
+  const std::string& text = entry.value.text;
+  if (key == "bake") return true;
+  if (key == "out") return bake.out = text, true;
+  if (key == "env") return bake.env = text, bake.env_place = entry.value.place, true;
+  if (key == "type") return bake.output.type = pixel_type(text), true;
+  if (key == "display") return bake.output.display.display = text, true;
+  if (key == "view_transform") return bake.output.display.view = text, true;
+  if (key == "exposure") return bake.output.display.exposure = parse_number({}, text), true;
+  return false;
+}
+
+BakeChoice read_bake(const Node& node) {
+  BakeChoice bake;
+  bake.place = node.place;
+  bake.bake = kebab(text_at(node, "bake"));
+  std::vector<std::string> own;
+  for (const BakeFacts& facts : all_bakes()) {
+    if (facts.name != bake.bake) continue;
+    for (const ParamFacts& param : facts.params) own.push_back(param.name);
+  }
+  for (const Entry& entry : node.entries) {
+    const bool is_own = std::count(own.begin(), own.end(), snake(entry.key)) > 0;
+    if (!is_own && read_runner_key(entry, bake)) continue;
+    bake.settings.push_back({snake(entry.key), one_text(entry.value), entry.value.place});
+  }
+  return bake;
+}
+
+std::map<std::string, std::string> read_vars(
+    const Node& root, const std::vector<std::pair<std::string, std::string>>& over,
+    Mistakes& mistakes) {
+  std::map<std::string, std::string> vars;
+  std::vector<std::string> known;
+  with(root, "vars", [&](const Node& node) {
+    for (const Entry& entry : node.entries) {
+      if (snake(entry.key) == "set") {
+        mistakes.add(entry.place, "'set' is the name of the texture set; choose another variable");
+      }
+      vars[snake(entry.key)] = entry.value.text;
+      known.push_back(entry.key);
+    }
+  });
+  for (const auto& [key, value] : over) {
+    if (!vars.count(snake(key))) {
+      throw Error(Fault::Usage, "--set: " + unknown_name("variable", key, known));
+    }
+    vars[snake(key)] = value;
+  }
+  return vars;
+}
+
+Pipeline read_root(const Node& root, const Reading& reading) {
+  Pipeline pipeline;
+  pipeline.name = text_at(root, "name");
+  with(root, "color", [&](const Node& node) { pipeline.color = read_color(node, reading); });
+  with(root, "environment", [&](const Node& node) {
+    for (const Entry& entry : node.entries) {
+      pipeline.environments.push_back(read_environment(entry, reading));
+    }
+  });
+  with(root, "sets", [&](const Node& node) {
+    for (const Node& item : node.items) pipeline.sets.push_back(read_set(item, reading));
+  });
+  with(root, "material", [&](const Node& node) { pipeline.material = read_material(node); });
+  with(root, "bakes", [&](const Node& node) {
+    for (const Node& item : node.items) pipeline.bakes.push_back(read_bake(item));
+  });
+  return pipeline;
+}
+
+}  // namespace
+
+BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& keys) {
+  Node block;
+  block.kind = Node::Kind::Block;
+  for (const auto& [key, text] : keys) {
+    Entry& entry = block.entries.emplace_back();
+    entry.key = key;
+    entry.value.kind = Node::Kind::Scalar;
+    entry.value.text = text;
+  }
+  Mistakes mistakes;
+  check(block, "bake", mistakes);
+  mistakes.raise();
+  return read_bake(block);
+}
+
+std::string chosen_config(const std::string& asked_for, const std::string& of_file) {
+  if (!asked_for.empty()) return asked_for;
+  if (!of_file.empty()) return of_file;
+  const char* named = std::getenv("OCIO");
+  return named && *named ? named : "builtin";
+}
+
+fs::path joined(const fs::path& folder, const std::string& path) {
+  return (folder / path).lexically_normal();
+}
+
+Pipeline read_pipeline(const fs::path& file,
+                       const std::vector<std::pair<std::string, std::string>>& vars) {
+  Node root = read_document(file);
+  Mistakes mistakes;
+  substitute(root, read_vars(root, vars, mistakes), mistakes);
+  check(root, "pipeline", mistakes);
+  mistakes.raise();
+  Pipeline pipeline = read_root(root, {file.parent_path(), mistakes});
+  mistakes.raise();
+  pipeline.file = file;
+  return pipeline;
+}
+
+MaterialFile read_material_file(const fs::path& file) {
+  const Node root = read_document(file);
+  Mistakes mistakes;
+  check(root, "material-file", mistakes);
+  mistakes.raise();
+  const Reading reading{file.parent_path(), mistakes};
+  MaterialFile result;
+  result.set.place = root.place;
+  result.set.name = text_at(root, "name", file.stem().string());
+  result.set.maps = read_maps(*root.find("maps"), reading);
+  read_reading(root, result.set);
+  with(root, "material", [&](const Node& node) { result.material = read_material(node); });
+  mistakes.raise();
+  return result;
+}
+
+}  // namespace kiln

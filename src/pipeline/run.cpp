@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/pipeline/run.h"
+
+#include <chrono>
+#include <functional>
+#include <new>
+#include <optional>
+
+#include "inputs.h"
+#include "kiln/store/publish.h"
+#include "outputs.h"
+
+namespace kiln {
+namespace {
+
+/// What several tasks read: made when the first asks, let go after the last. Where making it fails,
+/// every reader gets the same error.
+template <class T>
+class Shared {
+ public:
+  void set_maker(std::function<T()> make) { make_ = std::move(make); }
+  void add_reader() { ++readers_; }
+
+  const T& get() {
+    if (error_) throw Error(*error_);
+    if (!made_) make();
+    return *made_;
+  }
+
+  void release() {
+    if (--readers_ == 0) made_.reset();
+  }
+
+ private:
+  void make() {
+    try {
+      made_.emplace(make_());
+    } catch (const Error& error) {
+      error_ = error;
+      throw;
+    }
+  }
+
+  int readers_ = 0;
+  std::function<T()> make_;
+  std::optional<T> made_;
+  std::optional<Error> error_;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+class Runner {
+ public:
+  Runner(const Plan& plan, const Watcher& watcher)
+      : plan_(plan),
+        watcher_(watcher),
+        config_(plan.color.config),
+        sets_(plan.sets.size()),
+        lights_(plan.environments.size()) {
+    for (size_t i = 0; i < sets_.size(); ++i) {
+      sets_[i].set_maker([this, i] { return load(plan_.sets[i]); });
+    }
+    for (size_t i = 0; i < lights_.size(); ++i) {
+      lights_[i].set_maker([this, i] { return load(i); });
+    }
+    albedo_.set_maker(make_albedo_table);
+    for (const Task& task : plan.tasks) count_readers(task);
+  }
+
+  Report run() {
+    const auto start = std::chrono::steady_clock::now();
+    report_.pipeline = plan_.name.empty() ? plan_.file.filename().string() : plan_.name;
+    report_.warnings = plan_.warnings;
+    for (const std::string& warning : plan_.warnings) warn(warning);
+    for (const Task& task : plan_.tasks) report_.tasks.push_back(announce(task));
+    Progress progress{0, static_cast<int>(plan_.tasks.size())};
+    for (size_t i = 0; i < plan_.tasks.size() && !interrupted(); ++i) {
+      TaskRecord& record = report_.tasks[i];
+      if (watcher_.began) watcher_.began(record, progress);
+      attempt_task(plan_.tasks[i], record);
+      ++progress.done;
+      if (watcher_.ended) watcher_.ended(record, progress);
+    }
+    report_.seconds = seconds_since(start);
+    return std::move(report_);
+  }
+
+ private:
+  void count_readers(const Task& task) {
+    if (task.needs.material) sets_[*task.set].add_reader();
+    if (task.needs.light) lights_[*task.environment].add_reader();
+    if (task.needs.albedo) albedo_.add_reader();
+  }
+
+  void release(const Task& task) {
+    if (task.needs.material) sets_[*task.set].release();
+    if (task.needs.light) lights_[*task.environment].release();
+    if (task.needs.albedo) albedo_.release();
+  }
+
+  TaskRecord announce(const Task& task) const {
+    TaskRecord record;
+    record.bake = task.bake;
+    if (task.set) record.set = plan_.sets[*task.set].name;
+    record.out = task.out;
+    return record;
+  }
+
+  LoadedSet load(const PlannedSet& set) {
+    LoadedSet loaded = load_set(set, plan_.color, config_);
+    for (const std::string& warning : loaded.record.warnings) warn(set.name + ": " + warning);
+    if (watcher_.loaded) watcher_.loaded(loaded.record);
+    report_.sets.push_back(loaded.record);
+    return loaded;
+  }
+
+  LoadedLight load(size_t environment) {
+    LightSettings settings;
+    for (const Task& task : plan_.tasks) {
+      if (task.environment == environment && task.needs.prefiltered) settings.prefiltered = true;
+    }
+    LoadedLight loaded =
+        load_light(plan_.environments[environment], plan_.color, config_, settings);
+    const EnvironmentRecord& record = loaded.record;
+    for (const std::string& warning : record.warnings) warn(record.name + ": " + warning);
+    if (watcher_.lit) watcher_.lit(loaded.record);
+    report_.environments.push_back(loaded.record);
+    return loaded;
+  }
+
+  // The one place that catches: a task's failure becomes its record.
+  void attempt_task(const Task& task, TaskRecord& record) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      bake(task, record);
+      record.status = TaskRecord::Status::Baked;
+    } catch (const Error& error) {
+      record.fault = error;
+    } catch (const std::bad_alloc&) {
+      record.fault = Error(Fault::Memory, "out of memory");
+    } catch (const std::exception& defect) {
+      record.fault = Error(Fault::Internal, defect.what());
+    }
+    if (record.fault) record.status = TaskRecord::Status::Failed;
+    release(task);
+    record.seconds = seconds_since(start);
+  }
+
+  void bake(const Task& task, TaskRecord& record) {
+    Ingredients ingredients;
+    ingredients.energy_multiscatter = plan_.material.multiscatter;
+    ingredients.diffuse = plan_.material.diffuse;
+    if (task.needs.material) ingredients.material = &sets_[*task.set].get().svbrdf;
+    if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
+    if (task.needs.albedo) ingredients.albedo = albedo_.get().get();
+    const Baked baked = task.recipe->bake(ingredients);
+    record.notes = baked.notes;
+    record.figures = baked.figures;
+    const Written written = write_outputs(plan_, task, baked, config_);
+    record.outputs = written.outputs;
+    record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
+  }
+
+  bool interrupted() {
+    if (watcher_.interrupted) report_.signal = watcher_.interrupted();
+    return report_.signal != 0;
+  }
+
+  void warn(const std::string& warning) const {
+    if (watcher_.warned) watcher_.warned(warning);
+  }
+
+  const Plan& plan_;
+  const Watcher& watcher_;
+  ColorConfig config_;
+  std::vector<Shared<LoadedSet>> sets_;
+  std::vector<Shared<LoadedLight>> lights_;
+  Shared<std::shared_ptr<const AlbedoTable>> albedo_;
+  Report report_;
+};
+
+}  // namespace
+
+Report run_plan(const Plan& plan, Records records, const Watcher& watcher) {
+  require_writable_folder(plan.output);
+  Report report = Runner(plan, watcher).run();
+  if (records == Records::Keep) {
+    publish_text(plan.output / ".kiln" / "report.json", report_json(report));
+    publish_text(plan.output / ".kiln" / "times.json", times_json(report));
+  }
+  return report;
+}
+
+}  // namespace kiln

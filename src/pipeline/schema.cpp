@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/pipeline/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "kiln/material/naming.h"
+
+namespace kiln {
+namespace {
+
+using Kind = ParamFacts::Kind;
+using Shape = Key::Shape;
+
+Key scalar(std::string name, Kind kind, std::string meaning, std::string initial = {}) {
+  Key key;
+  key.facts.name = std::move(name);
+  key.facts.kind = kind;
+  key.facts.meaning = std::move(meaning);
+  key.facts.default_text = std::move(initial);
+  return key;
+}
+
+Key text(std::string name, std::string meaning, std::string initial = {}) {
+  return scalar(std::move(name), Kind::Text, std::move(meaning), std::move(initial));
+}
+
+Key word(std::string name, std::vector<std::string> choices, std::string initial,
+         std::string meaning) {
+  Key key = scalar(std::move(name), Kind::Word, std::move(meaning), std::move(initial));
+  key.facts.choices = std::move(choices);
+  return key;
+}
+
+Key shaped(std::string name, Shape shape, std::string block, std::string meaning) {
+  Key key = text(std::move(name), std::move(meaning));
+  key.shape = shape;
+  key.block = std::move(block);
+  return key;
+}
+
+Key required(Key key) {
+  key.required = true;
+  return key;
+}
+
+Key listed(Key key) {
+  key.shape = Shape::Scalars;
+  return key;
+}
+
+Key number(std::string name, Range range, std::string unit, std::string meaning,
+           std::string initial) {
+  Key key = scalar(std::move(name), Kind::Number, std::move(meaning), std::move(initial));
+  key.facts.min = range.min;
+  key.facts.max = range.max;
+  key.facts.unit = std::move(unit);
+  return key;
+}
+
+template <class Names>
+std::vector<std::string> words(const Names& names) {
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> workflow_words() {
+  std::vector<std::string> choices = {"auto"};
+  for (const std::string_view name : workflow_names) choices.emplace_back(name);
+  return choices;
+}
+
+std::vector<std::string> naming_words() {
+  std::vector<std::string> choices;
+  for (const NamingScheme& scheme : all_naming_schemes()) choices.emplace_back(scheme.name);
+  return choices;
+}
+
+Key version_key() {
+  Key key = scalar("version", Kind::Integer, "version of this format: 1");
+  key.facts.min = key.facts.max = 1;
+  return key;
+}
+
+// How the maps of one set are read; the workflow may also be left to a guess.
+BlockFacts with_reading_keys(BlockFacts block) {
+  block.keys.push_back(
+      word("workflow", workflow_words(), "", "instead of the workflow under `material`"));
+  for (const Param<WorkflowSettings>& param : workflow_params()) {
+    if (param.facts.name != "workflow") block.keys.push_back({param.facts});
+  }
+  return block;
+}
+
+BlockFacts pipeline_block() {
+  return {"pipeline",
+          "which bakes to run on which textures",
+          {required(version_key()), text("name", "name of the pipeline"),
+           shaped("vars", Shape::Named, "", "texts that \"{name}\" stands for elsewhere"),
+           shaped("color", Shape::Block, "color", "colour management"),
+           shaped("environment", Shape::Named, "environment", "environments, by name"),
+           shaped("sets", Shape::Blocks, "set", "texture sets"),
+           shaped("material", Shape::Block, "material", "the model that the maps feed"),
+           required(shaped("bakes", Shape::Blocks, "bake", "what to make"))}};
+}
+
+BlockFacts color_block() {
+  return {"color",
+          "colour management",
+          {text("config", "builtin, the path of an OpenColorIO config, or $OCIO", "builtin"),
+           text("working", "colour space that everything is computed in", "lin_rec709_scene"),
+           word("on_conversion", {"allow", "warn", "refuse"}, "warn",
+                "what to do when a map's own colour tag contradicts the space it is read in")}};
+}
+
+BlockFacts environment_block() {
+  return {"environment",
+          "a lat-long image of distant light",
+          {required(text("path", "image file, relative to this file")),
+           text("color_space", "its colour space, if not by type: float linear, integers sRGB"),
+           number("rotate", {}, "[degree]", "turns the environment, positive +Z toward +X", "0"),
+           word("fix", {"none", "zero", "neighbors"}, "neighbors",
+                "what becomes of texels that are NaN or infinite")},
+          "path"};
+}
+
+BlockFacts set_block() {
+  BlockFacts block{"set",
+                   "one texture set, or one per folder that a pattern matches",
+                   {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
+                    text("path", "one folder, a set"), text("name", "name of the set"),
+                    shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
+                    listed(word("naming", naming_words(), "", "naming schemes to try, in order"))}};
+  return with_reading_keys(std::move(block));
+}
+
+BlockFacts map_block() {
+  return {"map",
+          "where the values of a slot come from: a file or a constant",
+          {text("path", "image file, relative to this file"),
+           word("channel", {"r", "g", "b", "a", "rgb"}, "", "what to take of the file"),
+           word("convention", words(normal_convention_names), "auto", "of a normal map"),
+           text("color_space", "colour space of a colour map, if not by type"),
+           listed(text("value", "a constant instead of a file: one number, or three")),
+           word("encoding", words(specular_encoding_names), "",
+                "what the number of a `specular` slot is")},
+          "path"};
+}
+
+BlockFacts material_block() {
+  return {"material",
+          "the model that the maps feed",
+          {word("workflow", workflow_words(), "auto", "which maps there are"),
+           word("distribution", {"ggx"}, "ggx", "distribution of microfacet normals"),
+           word("masking", {"smith-correlated"}, "smith-correlated", "masking and shadowing"),
+           word("fresnel", {"schlick"}, "schlick", "Fresnel reflectance"),
+           word("diffuse", {"lambert", "eon"}, "eon", "diffuse reflection"),
+           word("energy", {"multiscatter", "none"}, "multiscatter",
+                "energy of light that scatters more than once"),
+           word("specular", words(specular_encoding_names), "",
+                "what the numbers of a specular map are")}};
+}
+
+BlockFacts any_bake_block() {
+  return {"bake",
+          "one thing to make",
+          {required(text("bake", "name of the bake")),
+           required(text("out", "file or folder below the output folder; \"{set}\" is the set"))}};
+}
+
+BlockFacts material_file_block() {
+  BlockFacts block{"material-file",
+                   "one texture set in a file of its own",
+                   {version_key(), text("name", "name of the set"),
+                    required(shaped("maps", Shape::Named, "map", "files by slot")),
+                    shaped("material", Shape::Block, "material", "the model that the maps feed")}};
+  return with_reading_keys(std::move(block));
+}
+
+}  // namespace
+
+const std::vector<BlockFacts>& all_blocks() {
+  static const std::vector<BlockFacts> blocks = {
+      pipeline_block(), color_block(),    environment_block(), set_block(),
+      map_block(),      material_block(), any_bake_block(),    material_file_block()};
+  return blocks;
+}
+
+const BlockFacts& block_named(const std::string& name) {
+  const auto& blocks = all_blocks();
+  const auto found = std::find_if(blocks.begin(), blocks.end(),
+                                  [&](const BlockFacts& block) { return block.name == name; });
+  if (found == blocks.end()) throw Error(Fault::Internal, "no block is named " + name);
+  return *found;
+}
+
+std::vector<Key> output_keys(Product product) {
+  std::vector<std::string> types = {"uint8", "uint16", "half", "float"};
+  if (product == Product::Folder) types = {"half", "float"};
+  std::vector<Key> keys = {
+      word("type", std::move(types), "", "numbers of the file, if not the format's usual")};
+  if (product != Product::Picture) return keys;
+  keys.push_back(text("display", "OpenColorIO display, for png and jpg", "the config's own"));
+  keys.push_back(text("view_transform", "view of that display", "the display's own"));
+  keys.push_back(number("exposure", {-100, 100}, "[EV]", "for png and jpg", "0"));
+  return keys;
+}
+
+BlockFacts bake_block(const BakeFacts& bake) {
+  BlockFacts block = block_named("bake");
+  block.meaning = bake.summary;
+  std::set<std::string> own;
+  for (const ParamFacts& param : bake.params) own.insert(param.name);
+  std::vector<Key> runner = output_keys(bake.product);
+  if (make_recipe(bake.name)->needs().light) {
+    runner.push_back(required(text("env", "name of an environment of this file")));
+  }
+  for (Key& key : runner) {
+    if (!own.count(key.facts.name)) block.keys.push_back(std::move(key));
+  }
+  for (const ParamFacts& param : bake.params) {
+    block.keys.push_back({param, param.kind == Kind::Text ? Shape::Scalars : Shape::Scalar});
+  }
+  return block;
+}
+
+}  // namespace kiln

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sets.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "glob.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_name(const fs::path& folder) {
+  const fs::path clean = folder.lexically_normal();
+  const fs::path last = clean.has_filename() ? clean.filename() : clean.parent_path().filename();
+  if (last.empty() || last == "." || last == "..") {
+    std::error_code failure;
+    return fs::weakly_canonical(folder, failure).filename().string();
+  }
+  return last.string();
+}
+
+PlannedMap planned(const MapSource& source, const fs::path& folder, SpecularEncoding encoding) {
+  PlannedMap map;
+  map.slot = source.slot;
+  map.path = folder / source.file;
+  map.channels = source.channels;
+  map.if_present = source.if_present;
+  map.convention = source.convention;
+  map.encoding = encoding;
+  map.reason = source.reason;
+  return map;
+}
+
+PlannedMap planned(const MapChoice& choice, SpecularEncoding encoding) {
+  PlannedMap map;
+  map.slot = choice.slot;
+  map.path = choice.path;
+  map.channels = choice.channel.empty() ? (slot_facts(choice.slot).channels == 3 ? "rgb" : "r")
+                                        : choice.channel;
+  map.convention = choice.convention;
+  map.encoding = choice.encoding.value_or(encoding);
+  map.color_space = choice.color_space;
+  map.value = choice.value;
+  map.reason = "stated";
+  return map;
+}
+
+NamingRules rules_of(const SetChoice& choice, const MaterialChoice& material) {
+  return {choice.naming, choice.workflow ? choice.workflow : material.workflow};
+}
+
+std::vector<PlannedSet> sets_in(const fs::path& folder, const std::string& name,
+                                const SetChoice& choice, const MaterialChoice& material) {
+  std::vector<PlannedSet> sets;
+  for (const FoundSet& found : find_sets(name, files_in(folder), rules_of(choice, material))) {
+    PlannedSet set;
+    set.name = found.name;
+    set.source = folder.string();
+    set.reading = choice.reading;
+    set.reading.workflow = found.workflow;
+    set.workflow_reason = found.workflow_reason;
+    for (const MapSource& source : found.maps) {
+      set.maps.push_back(planned(source, folder, material.specular));
+    }
+    set.ignored = found.ignored;
+    set.warnings = found.warnings;
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+void plan_globbed(const SetChoice& choice, const MaterialChoice& material, Plan& plan,
+                  Mistakes& mistakes) {
+  const std::vector<fs::path> folders = expand_folders(choice.glob);
+  if (folders.empty()) {
+    mistakes.add(choice.place, fmt::format("glob: no folder matches '{}'", choice.glob));
+    return;
+  }
+  const size_t before = plan.sets.size();
+  for (const fs::path& folder : folders) {
+    std::vector<PlannedSet> sets = sets_in(folder, folder_name(folder), choice, material);
+    if (sets.empty()) {
+      plan.warnings.push_back(
+          fmt::format("{}: skipped, no file is named like a known map", folder.string()));
+    }
+    plan.sets.insert(plan.sets.end(), sets.begin(), sets.end());
+  }
+  if (plan.sets.size() == before) {
+    mistakes.add(choice.place,
+                 fmt::format("glob: none of the {} folders that match '{}' holds a known map",
+                             folders.size(), choice.glob));
+  }
+}
+
+// A folder named directly is wanted: if it is of no use, its tasks fail instead of vanishing.
+void plan_folder(const SetChoice& choice, const MaterialChoice& material, Plan& plan) {
+  const fs::path& folder = choice.path;
+  const std::string name = choice.name.empty() ? folder_name(folder) : choice.name;
+  std::vector<PlannedSet> sets;
+  std::error_code failure;
+  std::string problem;
+  if (!fs::is_directory(folder, failure)) {
+    problem =
+        fs::exists(folder, failure) ? "is a file, expected a folder of maps" : "no such folder";
+  } else {
+    sets = sets_in(folder, name, choice, material);
+    problem = "no file in it is named like a known map";
+  }
+  if (sets.empty()) {
+    PlannedSet set;
+    set.name = name;
+    set.source = folder.string();
+    set.fault = Error(Fault::Input, fmt::format("{}: {}", folder.string(), problem));
+    sets.push_back(std::move(set));
+  }
+  plan.sets.insert(plan.sets.end(), sets.begin(), sets.end());
+}
+
+void plan_maps(const SetChoice& choice, const MaterialChoice& material, Plan& plan) {
+  PlannedSet set;
+  set.name = choice.name;
+  set.source = choice.place.file;
+  set.reading = choice.reading;
+  std::vector<Slot> given;
+  for (const MapChoice& map : choice.maps) {
+    set.maps.push_back(planned(map, material.specular));
+    given.push_back(map.slot);
+  }
+  const WorkflowGuess guess = guess_workflow(given);
+  const std::optional<Workflow> stated = choice.workflow ? choice.workflow : material.workflow;
+  set.reading.workflow = stated.value_or(guess.workflow);
+  set.workflow_reason = stated ? "stated" : guess.reason;
+  plan.sets.push_back(std::move(set));
+}
+
+void refuse_equal_names(const Plan& plan, Mistakes& mistakes) {
+  std::map<std::string, std::string> seen;
+  for (const PlannedSet& set : plan.sets) {
+    const auto [first, fresh] = seen.emplace(set.name, set.source);
+    if (fresh) continue;
+    mistakes.add({}, fmt::format("two texture sets are named '{}': {} and {}", set.name,
+                                 first->second, set.source));
+  }
+}
+
+}  // namespace
+
+void plan_sets(const Pipeline& pipeline, Plan& plan, Mistakes& mistakes) {
+  for (const SetChoice& choice : pipeline.sets) {
+    if (!choice.glob.empty()) {
+      plan_globbed(choice, pipeline.material, plan, mistakes);
+    } else if (!choice.path.empty()) {
+      plan_folder(choice, pipeline.material, plan);
+    } else {
+      plan_maps(choice, pipeline.material, plan);
+    }
+  }
+  refuse_equal_names(plan, mistakes);
+}
+
+}  // namespace kiln

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/store/publish.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <random>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "kiln/core/error.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, std::string_view doing, int reason) {
+  throw Error(Fault::Output,
+              fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(reason)));
+}
+
+// Processes of one machine differ by their id, and those of other machines on a shared disk by a
+// token drawn once; threads of a process differ by the counter.
+std::string unique_suffix() {
+  static const uint32_t token = std::random_device{}();
+  static std::atomic<uint64_t> counter{0};
+  return fmt::format("{}-{:08x}-{}", getpid(), token, counter.fetch_add(1));
+}
+
+fs::path temporary_beside(const fs::path& path) {
+  constexpr size_t longest_stem = 150;  // file systems bound a name by 255 bytes
+  const std::string stem = path.stem().string().substr(0, longest_stem);
+  return path.parent_path() /
+         fmt::format(".{}.{}.partial{}", stem, unique_suffix(), path.extension().string());
+}
+
+void make_folder(const fs::path& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) refuse(folder, "make the folder", error.value());
+}
+
+// Removes the temporary unless it was renamed away.
+class Temporary {
+ public:
+  explicit Temporary(fs::path path) : path_(std::move(path)) {}
+  ~Temporary() {
+    std::error_code ignored;
+    if (!renamed_) fs::remove(path_, ignored);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  void rename_to(const fs::path& target) {
+    if (std::rename(path_.c_str(), target.c_str()) != 0) refuse(target, "put in place", errno);
+    renamed_ = true;
+  }
+
+ private:
+  fs::path path_;
+  bool renamed_ = false;
+};
+
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags)
+      : value_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int value() const { return value_; }
+  int close() { return ::close(std::exchange(value_, -1)); }
+
+ private:
+  int value_;
+};
+
+// File systems without fsync answer EINVAL; there is nothing more to ask of them.
+void flush_to_disk(const fs::path& temporary, const fs::path& path) {
+  Descriptor file(temporary, O_RDONLY);
+  if (file.value() < 0) refuse(path, "write", errno);
+  if (fsync(file.value()) != 0 && errno != EINVAL) refuse(path, "flush to disk", errno);
+}
+
+void write_bytes(const fs::path& temporary, std::string_view bytes, const fs::path& path) {
+  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+  if (file.value() < 0) refuse(path, "write", errno);
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file.value(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) refuse(path, "write", errno);
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+  if (file.close() != 0) refuse(path, "write", errno);
+}
+
+}  // namespace
+
+void publish_file(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  if (!path.has_filename()) refuse(path, "write a file without a name", EINVAL);
+  make_folder(path.parent_path());
+  Temporary temporary(temporary_beside(path));
+  write(temporary.path());
+  flush_to_disk(temporary.path(), path);
+  temporary.rename_to(path);
+}
+
+void publish_text(const fs::path& path, const std::string& text) {
+  publish_file(path, [&](const fs::path& temporary) { write_bytes(temporary, text, path); });
+}
+
+void require_writable_folder(const fs::path& folder) {
+  make_folder(folder);
+  const Temporary probe(temporary_beside(folder / "probe"));
+  write_bytes(probe.path(), "", folder);
+}
+
+}  // namespace kiln

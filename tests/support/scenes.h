@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiln/bake/bake.h"
+#include "kiln/bake/products.h"
+#include "kiln/image/projection.h"
+#include "kiln/material/svbrdf.h"
+
+namespace kiln::test {
+
+/// A material that is the same everywhere.
+struct Uniform {
+  Size size{16, 16};
+  float diffuse = 0.5f, f0 = 0.04f, roughness = 0.5f, occlusion = 1;
+  Vec3<float> normal{0, 0, 1};
+};
+
+inline Svbrdf uniform_svbrdf(const Uniform& u) {
+  Svbrdf s;
+  s.name = "uniform";
+  s.size = u.size;
+  const float normal[3] = {u.normal.x, u.normal.y, u.normal.z};
+  for (int c = 0; c < 3; ++c) {
+    s.diffuse_color[c] = Plane(u.size, u.diffuse);
+    s.f0[c] = Plane(u.size, u.f0);
+    s.normal[c] = Plane(u.size, normal[c]);
+  }
+  s.roughness = Plane(u.size, u.roughness);
+  s.ambient_occlusion = Plane(u.size, u.occlusion);
+  return s;
+}
+
+/// A lat-long environment whose radiance is a function of direction, grey.
+template <class Radiance>
+Layers make_latlong(Size size, const Radiance& radiance) {
+  Layers image = make_layers(size, {"R", "G", "B"});
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const Vec2<double> uv{(x + 0.5) / size.width, (y + 0.5) / size.height};
+      const auto value = static_cast<float>(radiance(latlong_to_direction(uv)));
+      for (Layer& layer : image.layers) layer.plane.at(x, y) = value;
+    }
+  }
+  return image;
+}
+
+inline Layers constant_latlong(double radiance) {
+  return make_latlong({64, 32}, [=](const Vec3<double>&) { return radiance; });
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Bakes a preview of `material` in `latlong` with the given settings; returns the image.
+inline Layers preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
+                      const std::string& diffuse = "eon") {
+  const auto recipe = make_recipe("preview");
+  for (const auto& [name, value] : settings) recipe->set(name, value);
+  LightSettings light_settings;
+  light_settings.prefiltered = recipe->needs().prefiltered;
+  light_settings.size = 64;
+  const LightMade made = make_light(latlong, light_settings);
+  const auto albedo = make_albedo_table();
+  Ingredients ingredients;
+  ingredients.material = &material;
+  ingredients.light = made.light.get();
+  ingredients.albedo = albedo.get();
+  ingredients.diffuse = diffuse;
+  return recipe->bake(ingredients).artifacts.at(0).image;
+}
+
+inline double mean(const Plane& plane) {
+  double sum = 0;
+  for (int y = 0; y < plane.height(); ++y) {
+    for (float value : plane.texels_of_row(y)) sum += value;
+  }
+  return sum / static_cast<double>(area(plane.size()));
+}
+
+}  // namespace kiln::test

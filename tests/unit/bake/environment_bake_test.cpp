@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/scenes.h"
+
+namespace kiln {
+namespace {
+
+Baked bake_environment(const Layers& latlong, const test::Settings& settings) {
+  const auto recipe = make_recipe("environment");
+  for (const auto& [name, value] : settings) recipe->set(name, value);
+  const LightMade made = make_light(latlong, {});
+  Ingredients ingredients;
+  ingredients.light = made.light.get();
+  return recipe->bake(ingredients);
+}
+
+const Artifact& find(const Baked& baked, const std::string& name) {
+  for (const Artifact& artifact : baked.artifacts) {
+    if (artifact.name == name) return artifact;
+  }
+  throw Error(Fault::Internal, "no artifact '" + name + "'");
+}
+
+TEST(EnvironmentBake, OfAConstantIsThatConstantEverywhere) {
+  for (const char* layout : {"cube", "latlong"}) {
+    const Baked baked =
+        bake_environment(test::constant_latlong(0.75), {{"size", "32"}, {"layout", layout}});
+    for (const Artifact& artifact : baked.artifacts) {
+      for (const Layer& layer : artifact.image.layers) {
+        for (int y = 0; y < layer.plane.height(); ++y) {
+          for (const float value : layer.plane.texels_of_row(y)) {
+            EXPECT_NEAR(value, 0.75, 2e-5) << artifact.name;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(EnvironmentBake, NamesFacesAndLevelsAndDescribesThem) {
+  const Baked baked = bake_environment(test::constant_latlong(1), {{"size", "64"}});
+  EXPECT_EQ(find(baked, "specular_m0_px").image.size, (Size{64, 64}));
+  EXPECT_EQ(find(baked, "specular_m2_nz").image.size, (Size{16, 16}));
+  EXPECT_EQ(find(baked, "irradiance_py").image.size, (Size{64, 64}));
+  const auto env = nlohmann::json::parse(find(baked, "env").text);
+  EXPECT_EQ(env["curve"], "filament");
+  EXPECT_EQ(env["layout"], "cube");
+  EXPECT_EQ(env["roughness"].size(), 3u);
+  EXPECT_EQ(env["roughness"][0], 0.0);
+  EXPECT_EQ(env["roughness"][2], 1.0);
+  const auto sh = nlohmann::json::parse(find(baked, "sh").text);
+  EXPECT_EQ(sh["radiance"].size(), 9u);
+  EXPECT_NEAR(sh["radiance"][0][0], 2 * std::sqrt(pi), 1e-5);
+  EXPECT_NEAR(double(sh["irradiance_over_pi"][0][0]) / (2 * std::sqrt(pi)), 1, 1e-5);
+}
+
+TEST(EnvironmentBake, PutsTheSkyOnTheUpperFace) {
+  const Layers sky =
+      test::make_latlong({128, 64}, [](const Vec3<double>& d) { return d.y > 0 ? 2.0 : 0.1; });
+  const Baked baked = bake_environment(sky, {{"size", "32"}});
+  EXPECT_NEAR(find(baked, "specular_m0_py").image.layers[0].plane.at(16, 16), 2, 1e-3);
+  EXPECT_NEAR(find(baked, "specular_m0_ny").image.layers[0].plane.at(16, 16), 0.1, 1e-3);
+  EXPECT_GT(find(baked, "irradiance_px").image.layers[0].plane.at(32, 8),
+            find(baked, "irradiance_px").image.layers[0].plane.at(32, 56));
+}
+
+TEST(EnvironmentBake, CountsAndRepairsWhatIsNotFinite) {
+  Layers latlong = test::constant_latlong(1);
+  latlong.layers[0].plane.at(5, 5) = NAN;
+  latlong.layers[1].plane.at(6, 5) = INFINITY;
+  latlong.layers[2].plane.at(7, 5) = -2;
+  const auto env =
+      nlohmann::json::parse(find(bake_environment(latlong, {{"size", "16"}}), "env").text);
+  EXPECT_EQ(env["fixed"]["nan"], 1);
+  EXPECT_EQ(env["fixed"]["inf"], 1);
+  EXPECT_EQ(env["fixed"]["negative"], 1);
+}
+
+}  // namespace
+}  // namespace kiln

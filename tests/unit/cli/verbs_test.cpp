@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "kiln/image/layers.h"
+
+namespace kiln {
+namespace {
+
+using test::kiln;
+using test::Outcome;
+using test::Workshop;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+TEST(LutVerb, PrintsOneValueWithSeventeenDigits) {
+  const Workshop shop;
+  const Outcome outcome = kiln(shop, {"lut", "split-sum", "--at", "0.3,0.5"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, MatchesRegex("0\\.[0-9]{16,20} 0\\.[0-9]{16,20}\n"));
+}
+
+TEST(LutVerb, PrintsOneValueAsJson) {
+  const Workshop shop;
+  const Outcome outcome = kiln(shop, {"lut", "directional-albedo", "--at", "0.3,0.5", "--json"});
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["mu"], 0.3);
+  EXPECT_EQ(json["table"], "directional-albedo");
+}
+
+TEST(LutVerb, RefusesAPointOutsideTheDomain) {
+  const Workshop shop;
+  EXPECT_EQ(kiln(shop, {"lut", "split-sum", "--at", "2,0.5"}).code, 2);
+  EXPECT_EQ(kiln(shop, {"lut", "split-sum", "--at", "0.5"}).code, 2);
+}
+
+TEST(LutVerb, MakesAFileAndTellsItsErrors) {
+  const Workshop shop;
+  const std::string file = (shop / "new/dfg.exr").string();
+  const Outcome outcome = kiln(shop, {"lut", "split-sum", "--size", "8x4", "-o", file});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(file));
+  EXPECT_THAT(outcome.out, HasSubstr("entry error"));
+  const FileFacts facts = inspect_image(file);
+  EXPECT_EQ(facts.size, (Size{8, 4}));
+  EXPECT_EQ(facts.type, PixelType::Float);
+  EXPECT_FALSE(std::filesystem::exists(shop / "new/.kiln"));
+}
+
+TEST(LutVerb, EndsWithTheFaultOfItsOnlyTask) {
+  const Workshop shop;
+  shop.write("file", "x");
+  EXPECT_EQ(kiln(shop, {"lut", "split-sum", "-o", (shop / "file/a.exr").string()}).code, 5);
+  EXPECT_EQ(kiln(shop, {"lut", "split-sum", "-o", (shop / "a.xyz").string()}).code, 2);
+}
+
+TEST(EnvVerb, WritesTheChainAndItsDescription) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {32, 16});
+  const std::string out = (shop / "out").string();
+  const Outcome outcome = kiln(shop, {"env", sky.string(), "-o", out, "--size", "16"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* name : {"specular_m0_px.exr", "irradiance_ny.exr", "sh.json", "env.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(shop / "out" / name)) << name;
+  }
+  EXPECT_TRUE(nlohmann::json::accept(test::text_of(shop / "out/env.json")));
+}
+
+TEST(EnvVerb, OfAMissingImageIsAnInputError) {
+  const Workshop shop;
+  const Outcome outcome =
+      kiln(shop, {"env", (shop / "no.exr").string(), "-o", (shop / "o").string()});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("no.exr"));
+}
+
+TEST(PreviewVerb, TellsWhichFileTookWhichSlotAndWhy) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  shop.paint_set("rock");
+  const Outcome outcome = kiln(shop, {"preview", (shop / "rock").string(), "--env", sky.string(),
+                                      "--samples", "4", "-o", (shop / "a.png").string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("rock_Roughness.png"));
+  EXPECT_THAT(outcome.err, HasSubstr("srgb_rec709_scene -> lin_rec709_scene"));
+  EXPECT_EQ(inspect_image(shop / "a.png").size, (Size{4, 4}));
+}
+
+TEST(PreviewVerb, ReadsAMaterialFile) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  shop.paint("c.exr", 0.5f, PixelType::Half);
+  const auto file = shop.write("m.yaml",
+                               "maps: { base_color: c.exr, roughness: { value: 0.4 } }\n"
+                               "material: { diffuse: lambert }\n");
+  const Outcome outcome = kiln(shop, {"preview", file.string(), "--env", sky.string(), "--samples",
+                                      "4", "-o", (shop / "a.exr").string(), "-q"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(PreviewVerb, ListsTheSetsOfAFolderThatHoldsTwo) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  for (const char* map :
+       {"BaseColor", "Roughness", "Metallic", "Diffuse", "Specular", "Glossiness"}) {
+    shop.paint(std::string("two/two_") + map + ".exr", 0.5f, PixelType::Half);
+  }
+  std::vector<std::string> words = {
+      "preview", (shop / "two").string(),  "--env", sky.string(), "--samples", "4",
+      "-o",      (shop / "a.exr").string()};
+  const Outcome refused = kiln(shop, words);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("two.metal_rough"));
+  EXPECT_THAT(refused.err, HasSubstr("two.spec_gloss"));
+  words.insert(words.end(), {"--name", "two.spec_gloss"});
+  const Outcome chosen = kiln(shop, words);
+  EXPECT_EQ(chosen.code, 0) << chosen.err;
+  EXPECT_THAT(chosen.err, HasSubstr("two_Glossiness.exr"));
+}
+
+TEST(PreviewVerb, OfAFolderWithoutKnownMapIsAnInputError) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  shop.write("none/readme.txt", "x");
+  EXPECT_EQ(kiln(shop, {"preview", (shop / "none").string(), "--env", sky.string(), "-o",
+                        (shop / "a.exr").string()})
+                .code,
+            3);
+}
+
+TEST(InspectVerb, TellsSizeTypeAndMean) {
+  const Workshop shop;
+  const auto image = shop.paint("a.exr", 0.25f, PixelType::Half);
+  const auto json = nlohmann::json::parse(kiln(shop, {"inspect", image.string(), "--json"}).out);
+  EXPECT_EQ(json[0]["type"], "half");
+  EXPECT_EQ(json[0]["channels"][0]["mean"], 0.25);
+}
+
+TEST(InspectVerb, TellsTheSlotsOfASet) {
+  const Workshop shop;
+  shop.paint_set("rock", ".exr");
+  const Outcome outcome = kiln(shop, {"inspect", (shop / "rock").string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("roughness[r]"));
+  EXPECT_THAT(outcome.out, HasSubstr("read as lin_rec709_scene"));
+}
+
+TEST(InspectVerb, OfAMissingFileIsAnInputError) {
+  const Workshop shop;
+  EXPECT_EQ(kiln(shop, {"inspect", (shop / "no.png").string()}).code, 3);
+}
+
+TEST(DiffVerb, EndsWithSevenWhenImagesDifferByMoreThanAllowed) {
+  const Workshop shop;
+  const std::string a = shop.paint("a.exr", 0.5f, PixelType::Float).string();
+  const std::string b = shop.paint("b.exr", 0.75f, PixelType::Float).string();
+  EXPECT_EQ(kiln(shop, {"diff", a, a}).code, 0);
+  EXPECT_EQ(kiln(shop, {"diff", a, b}).code, 7);
+  EXPECT_EQ(kiln(shop, {"diff", a, b, "--max-error", "0.25"}).code, 0);
+  EXPECT_EQ(kiln(shop, {"diff", a, b, "--rms", "0.2"}).code, 7);
+  EXPECT_EQ(kiln(shop, {"diff", a, (shop / "no.exr").string()}).code, 3);
+}
+
+TEST(DiffVerb, ComparesFoldersFileByFile) {
+  const Workshop shop;
+  shop.paint("a/x.exr", 0.5f, PixelType::Float);
+  shop.paint("b/x.exr", 0.5f, PixelType::Float);
+  const std::string a = (shop / "a").string(), b = (shop / "b").string();
+  EXPECT_EQ(kiln(shop, {"diff", a, b}).code, 0);
+  shop.paint("b/y.exr", 0.5f, PixelType::Float);
+  const Outcome outcome = kiln(shop, {"diff", a, b});
+  EXPECT_EQ(outcome.code, 7);
+  EXPECT_THAT(outcome.out, HasSubstr("only in"));
+}
+
+TEST(ListVerb, PrintsEveryKind) {
+  const Workshop shop;
+  for (const char* kind : {"models", "tables", "bakes", "namings", "maps", "colour-spaces",
+                           "color-spaces", "schema"}) {
+    const Outcome outcome = kiln(shop, {"list", kind});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_FALSE(outcome.out.empty()) << kind;
+    EXPECT_TRUE(nlohmann::json::accept(kiln(shop, {"list", kind, "--json"}).out)) << kind;
+  }
+}
+
+TEST(ListVerb, PrintsTheParametersOfABakeAndTheSourceOfAModel) {
+  const Workshop shop;
+  EXPECT_THAT(kiln(shop, {"list", "preview"}).out, HasSubstr("samples"));
+  EXPECT_THAT(kiln(shop, {"list", "ggx"}).out, HasSubstr("source: "));
+}
+
+}  // namespace
+}  // namespace kiln
