@@ -40,7 +40,7 @@ BENCHMARK(irradiance_map)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void sampling_tables(benchmark::State& state) {
   const Layers image = sky({1024, 512});
-  for (auto _ : state) benchmark::DoNotOptimize(Environment(image, false, 0));
+  for (auto _ : state) benchmark::DoNotOptimize(Environment(image));
 }
 BENCHMARK(sampling_tables)->UseRealTime()->Unit(benchmark::kMillisecond);
 

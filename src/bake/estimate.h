@@ -71,8 +71,8 @@ Vec3<F> sum_points(const ShadingPoint<F, Diffuse>& point, const Environment& env
     sum += weigh_light(point, table, point.frame.to_local(light.direction), light.radiance,
                        light.density);
     const Vec3<F> wi = sample_direction(point, Vec2<F>{u(2), u(3)});
-    const Vec3<F> toward = point.frame.to_world(wi);
-    sum += weigh_light(point, table, wi, environment.radiance(toward), environment.density(toward));
+    const Arriving<F> own = environment.arriving(point.frame.to_world(wi));
+    sum += weigh_light(point, table, wi, own.radiance, own.density);
   }
   return sum;
 }

@@ -43,7 +43,7 @@ LightMade make_light(Layers latlong, const LightSettings& settings) {
                             "none)",
                             fixed.nan, fixed.inf));
   }
-  Environment environment(latlong, settings.node_aligned, settings.rotate_deg);
+  Environment environment(latlong, {settings.node_aligned, settings.rotate_deg});
   if (settings.node_aligned) latlong = texel_centred(latlong);
   auto light = std::make_shared<Light>(
       Light{std::move(latlong), settings.rotate_deg, fixed, std::move(environment), {}, {}});

@@ -47,9 +47,11 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string retry_command(const RunArguments& arguments, const Report& report) {
+std::string retry_command(const RunArguments& arguments, const Globals& globals,
+                          const Report& report) {
   std::string command = "kiln run " + quoted(arguments.pipeline);
   if (!arguments.output.empty()) command += " -o " + quoted(arguments.output);
+  if (!globals.ocio.empty()) command += " --ocio " + quoted(globals.ocio);
   for (const std::string& var : arguments.vars) command += " --set " + quoted(var);
   for (const std::string& pattern : retry_patterns(report)) {
     command += " --only " + quoted(pattern);
@@ -64,7 +66,7 @@ void print_result(const RunArguments& arguments, const Globals& globals, const R
     fmt::print("{}", summary_table(report));
   }
   if (!retry_patterns(report).empty() && !globals.quiet) {
-    fmt::print(stderr, "to retry: {}\n", retry_command(arguments, report));
+    fmt::print(stderr, "to retry: {}\n", retry_command(arguments, globals, report));
   }
 }
 

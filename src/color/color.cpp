@@ -138,6 +138,15 @@ void transform_rows(const std::string& source, const OCIO::CPUProcessor& transfo
   });
 }
 
+// The library counts its names and gives them one by one.
+template <class NameAt>
+std::vector<std::string> listed(int count, NameAt name_at) {
+  std::vector<std::string> names;
+  names.reserve(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) names.emplace_back(name_at(i));
+  return names;
+}
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -164,7 +173,7 @@ struct ColorConfig::Work {
   }
 
   std::string color_space(const ColorConfig& face, const std::string& name) const {
-    const std::string space = face.resolve(name);
+    std::string space = face.resolve(name);
     if (find(space)->isData()) {
       throw Error(Fault::Usage, fmt::format("colour space '{}' holds data, which is no colour and "
                                             "cannot be converted",
@@ -183,29 +192,23 @@ ColorConfig& ColorConfig::operator=(ColorConfig&&) noexcept = default;
 const std::string& ColorConfig::source() const { return work_->source; }
 
 std::vector<std::string> ColorConfig::color_spaces() const {
-  std::vector<std::string> names;
-  const int count = work_->config->getNumColorSpaces();
-  for (int i = 0; i < count; ++i) names.emplace_back(work_->config->getColorSpaceNameByIndex(i));
-  return names;
+  const OCIO::Config& config = *work_->config;
+  return listed(config.getNumColorSpaces(),
+                [&](int i) { return config.getColorSpaceNameByIndex(i); });
 }
 
 std::vector<std::string> ColorConfig::displays() const {
-  std::vector<std::string> names;
-  for (int i = 0; i < work_->config->getNumDisplays(); ++i) {
-    names.emplace_back(work_->config->getDisplay(i));
-  }
-  return names;
+  const OCIO::Config& config = *work_->config;
+  return listed(config.getNumDisplays(), [&](int i) { return config.getDisplay(i); });
 }
 
 std::vector<std::string> ColorConfig::views(const std::string& display) const {
   if (const auto known = displays(); !contains(known, display)) {
     throw Error(Fault::Usage, unknown_name("display", display, known));
   }
-  std::vector<std::string> names;
-  for (int i = 0; i < work_->config->getNumViews(display.c_str()); ++i) {
-    names.emplace_back(work_->config->getView(display.c_str(), i));
-  }
-  return names;
+  const OCIO::Config& config = *work_->config;
+  return listed(config.getNumViews(display.c_str()),
+                [&](int i) { return config.getView(display.c_str(), i); });
 }
 
 std::string ColorConfig::default_display() const { return work_->config->getDefaultDisplay(); }

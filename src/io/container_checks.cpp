@@ -15,6 +15,11 @@ uint32_t big_endian(ByteView bytes, size_t at) {
          static_cast<uint32_t>(bytes[at + 2]) << 8 | static_cast<uint32_t>(bytes[at + 3]);
 }
 
+uint32_t little_endian(ByteView bytes, size_t at) {
+  return static_cast<uint32_t>(bytes[at + 3]) << 24 | static_cast<uint32_t>(bytes[at + 2]) << 16 |
+         static_cast<uint32_t>(bytes[at + 1]) << 8 | static_cast<uint32_t>(bytes[at]);
+}
+
 std::string_view text_at(ByteView bytes, size_t at, size_t length) {
   return {reinterpret_cast<const char*>(bytes.data()) + at, length};
 }
@@ -104,6 +109,15 @@ bool png_may_hold_its_pixels(const PngHeader& header, size_t bytes) {
   constexpr double largest_ratio = 1032;
   const double pixels = static_cast<double>(area(header.size)) * header.bits_per_texel / 8;
   return pixels <= largest_ratio * static_cast<double>(bytes);
+}
+
+bool dds_may_hold_its_pixels(ByteView bytes) {
+  constexpr size_t header_length = 128;
+  constexpr size_t height_at = 12;
+  if (bytes.size() < header_length) return false;
+  const double texels = static_cast<double>(little_endian(bytes, height_at)) *
+                        static_cast<double>(little_endian(bytes, height_at + 4));
+  return texels > 0 && texels / 2 <= static_cast<double>(bytes.size() - header_length);
 }
 
 bool jpeg_is_complete(ByteView bytes) {

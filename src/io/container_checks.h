@@ -27,6 +27,10 @@ bool png_may_hold_its_pixels(const PngHeader& header, size_t bytes);
 /// Whether a PNG's chunks run to its end.
 bool png_is_complete(ByteView bytes);
 
+/// Whether a DDS is as long as the densest of its encodings (BC1, half a byte a texel) needs for
+/// the size that the header claims. @source Microsoft, DDS_HEADER
+bool dds_may_hold_its_pixels(ByteView bytes);
+
 /// Whether a JPEG's markers run to the end of the image. Decoders fill what is missing with grey
 /// and go on. @source ITU-T T.81, annex B
 bool jpeg_is_complete(ByteView bytes);

@@ -37,6 +37,9 @@ struct Opened {
 
 // What the bytes themselves show, before a decoder sees them.
 void check_container(const std::string& format, ByteView bytes, const ReadLimits& limits) {
+  if (format == "dds" && !dds_may_hold_its_pixels(bytes)) {
+    refuse("truncated: the header claims more texels than the file can hold");
+  }
   if (format != "png") return;
   const auto header = png_header(bytes);
   if (!header) refuse("damaged PNG header");

@@ -85,13 +85,13 @@ double write_cumulative(const std::vector<double>& shares, float* to, size_t len
 
 }  // namespace
 
-Environment::Environment(const Layers& latlong, bool node_aligned, double rotate_deg)
-    : cells_(cells_of(latlong, node_aligned)), rotation_(rotate_deg / 360) {
+Environment::Environment(const Layers& latlong, const EnvironmentOptions& options)
+    : cells_(cells_of(latlong, options.node_aligned)), rotation_(options.rotate_deg / 360) {
   rotation_ -= std::floor(rotation_);
   texels_ = LatLongTexels(latlong, cells_.width, Pole::Clamped);
   scale_ = {static_cast<float>(cells_.width), static_cast<float>(cells_.height)};
-  offset_ = node_aligned ? Vec2<float>{1, 1} : Vec2<float>{0.5f, 0.5f};
-  build_density(latlong, node_aligned);
+  offset_ = options.node_aligned ? Vec2<float>{1, 1} : Vec2<float>{0.5f, 0.5f};
+  build_density(latlong, options.node_aligned);
 }
 
 void Environment::build_density(const Layers& latlong, bool node_aligned) {

@@ -104,6 +104,10 @@ std::vector<Row> rows_of(const Report& report) {
   return rows;
 }
 
+std::string set_of(const Plan& plan, const Task& task) {
+  return task.set ? plan.sets[*task.set].name : "(no set)";
+}
+
 }  // namespace
 
 std::string software() { return std::string("kiln ") + KILN_VERSION; }
@@ -169,13 +173,17 @@ std::vector<std::string> retry_patterns(const Report& report) {
 }
 
 std::string dry_run_table(const Plan& plan) {
+  size_t set_width = 0, bake_width = 0;
+  for (const Task& task : plan.tasks) {
+    set_width = std::max(set_width, set_of(plan, task).size());
+    bake_width = std::max(bake_width, task.bake.size());
+  }
   std::string text;
   for (const Task& task : plan.tasks) {
-    const std::string set = task.set ? plan.sets[*task.set].name : "(no set)";
-    const std::string slash = task.product == Product::Folder ? "/" : "";
-    text += fmt::format("{}  {}  {}{}  new\n", set, task.bake, task.out, slash);
+    text += fmt::format("{:<{}}  {:<{}}  new  {}{}\n", set_of(plan, task), set_width, task.bake,
+                        bake_width, task.out, task.product == Product::Folder ? "/" : "");
   }
-  return text + fmt::format("{} tasks in {} sets\n", plan.tasks.size(), plan.sets.size());
+  return text + fmt::format("{} tasks, {} texture sets\n", plan.tasks.size(), plan.sets.size());
 }
 
 std::string dry_run_json(const Plan& plan) {

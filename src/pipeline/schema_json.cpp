@@ -15,10 +15,15 @@ Json reference(const std::string& name) { return {{"$ref", "#/$defs/" + name}}; 
 // A number may also be written as a variable, "{size}".
 Json or_variable(const Json& schema) { return {{"anyOf", {schema, reference("variable")}}}; }
 
+// A whole number as such, not as 1.0.
+Json bound(double value) {
+  return value == std::floor(value) ? Json(static_cast<long long>(value)) : Json(value);
+}
+
 Json number_schema(const ParamFacts& facts) {
   Json schema = {{"type", facts.kind == Kind::Integer ? "integer" : "number"}};
-  if (std::isfinite(facts.min)) schema["minimum"] = facts.min;
-  if (std::isfinite(facts.max)) schema["maximum"] = facts.max;
+  if (std::isfinite(facts.min)) schema["minimum"] = bound(facts.min);
+  if (std::isfinite(facts.max)) schema["maximum"] = bound(facts.max);
   return or_variable(schema);
 }
 

@@ -40,7 +40,7 @@ inline float unit_float(std::uint32_t bits) {
 }
 inline WideFloat unit_float(WideUint bits) {
   const WideUint one_to_two = (bits >> 9) | WideUint(0x3f800000u);
-  return xsimd::bitwise_cast<WideFloat>(one_to_two) - WideFloat(1.0f - 0x1p-24f);
+  return float_of_bits(one_to_two) - WideFloat(1.0f - 0x1p-24f);
 }
 
 /// Sobol' points with reversed bits, ready for owen_scramble_reversed: [n] of four dimensions.

@@ -12,11 +12,24 @@
 
 namespace kiln {
 
+/// What arrives from a direction, and how likely sample() is to choose it.
+template <class F>
+struct Arriving {
+  Vec3<F> radiance;
+  F density;  ///< [1/sr]
+};
+
 template <class F>
 struct LightSample {
   Vec3<F> direction;  ///< unit, toward the light, world
   Vec3<F> radiance;
   F density;  ///< [1/sr]
+};
+
+struct EnvironmentOptions {
+  bool node_aligned = false;  ///< first column = last, pole rows constant (OpenEXR envmaps): values
+                              ///< are read at the nodes, without resampling
+  double rotate_deg = 0;      ///< about +Y, positive turns +Z toward +X [degree]
 };
 
 /// A distant environment: directions to radiance, and directions sampled by importance.
@@ -34,12 +47,9 @@ class Environment {
  public:
   static constexpr double uniform_share = 0.01;
 
-  /// @param latlong       planes R G B (or one plane, grey), finite
-  /// @param node_aligned  first column = last, pole rows constant (OpenEXR envmaps): values are
-  ///                      read at the nodes, without resampling
-  /// @param rotate_deg    turns the environment about +Y, positive turns +Z toward +X [degree]
+  /// @param latlong  planes R G B (or one plane, grey), finite
   /// @error Fault::Input when the image is empty, too small or has neither one nor three colours
-  Environment(const Layers& latlong, bool node_aligned, double rotate_deg);
+  explicit Environment(const Layers& latlong, const EnvironmentOptions& options = {});
 
   /// Radiance from the unit direction d; any d, NaN too, reads inside the image.
   template <class F>
@@ -48,6 +58,10 @@ class Environment {
   /// Density of sample() at the unit direction d [1/sr].
   template <class F>
   F density(const Vec3<F>& d) const;
+
+  /// Both of the above for the price of one.
+  template <class F>
+  Arriving<F> arriving(const Vec3<F>& d) const;
 
   /// A direction by importance; u in [0,1)^2, and neighbours in u stay neighbours in direction.
   template <class F>
@@ -74,6 +88,8 @@ class Environment {
   Vec2<F> to_image(const Vec3<F>& d) const;
   template <class F>
   Vec3<F> radiance_at(Vec2<F> uv) const;
+  template <class F>
+  F density_at(Vec2<F> uv) const;
   template <class F>
   Vec2<LaneIndex<F>> cell_of(Vec2<F> uv) const;
 
@@ -119,9 +135,20 @@ Vec3<F> Environment::radiance(const Vec3<F>& d) const {
 }
 
 template <class F>
-F Environment::density(const Vec3<F>& d) const {
-  const Vec2<LaneIndex<F>> cell = cell_of(to_image(d));
+F Environment::density_at(Vec2<F> uv) const {
+  const Vec2<LaneIndex<F>> cell = cell_of(uv);
   return texels_.fourth<F>(cell.x + LaneIndex<F>(1), cell.y + LaneIndex<F>(1));
+}
+
+template <class F>
+F Environment::density(const Vec3<F>& d) const {
+  return density_at(to_image(d));
+}
+
+template <class F>
+Arriving<F> Environment::arriving(const Vec3<F>& d) const {
+  const Vec2<F> uv = to_image(d);
+  return {radiance_at(uv), density_at(uv)};
 }
 
 // Moves `at` to the last of 2^steps ascending entries that is not above u, `low` to its value.

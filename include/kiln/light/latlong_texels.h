@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kiln/image/layers.h"
-#include "kiln/light/lane_index.h"
+#include "kiln/math/wide.h"
 #include "kiln/math/vec.h"
 
 namespace kiln {

@@ -9,7 +9,7 @@
 
 #include "kiln/image/layers.h"
 #include "kiln/image/projection.h"
-#include "kiln/light/lane_index.h"
+#include "kiln/math/wide.h"
 #include "kiln/light/turn.h"
 #include "kiln/math/vec.h"
 

@@ -10,8 +10,7 @@ namespace kiln {
 /// Where a roughness lies in an albedo table; found once per texel, used for every direction.
 template <class F>
 struct AlbedoRow {
-  using Index = std::conditional_t<lane_count<F> == 1, std::int32_t, WideInt>;
-  Index first;  ///< entry (0, row)
+  LaneIndex<F> first;  ///< entry (0, row)
   F blend;      ///< toward the next row
   F bend;       ///< c of the cosine axis
 };
@@ -35,7 +34,7 @@ class AlbedoTable {
     const F r = clamp(select(roughness == roughness, roughness, F(0)), F(0), F(1));
     const F y = sqrt(r) * F(nodes - 1);
     const F whole = min(floor(y), F(nodes - 2));
-    return {to_index(whole) * 2 * nodes, y - whole, max(r, F(least_bend))};
+    return {to_index<F>(whole) * 2 * nodes, y - whole, max(r, F(least_bend))};
   }
 
   /// @valid mu in [0,1]; clamped
@@ -45,7 +44,7 @@ class AlbedoTable {
     const F x = m * (F(1) + row.bend) / (m + row.bend) * F(nodes - 1);
     const F whole = clamp(floor(x), F(0), F(nodes - 2));
     const F t = x - whole;
-    const auto at = row.first + to_index(whole) * 2;
+    const auto at = row.first + to_index<F>(whole) * 2;
     const float* e = entries_.data();
     const auto across = [&](int offset) {
       return lerp(gather(e + offset, at), gather(e + offset + 2, at), t);
@@ -65,9 +64,6 @@ class AlbedoTable {
 
  private:
   static constexpr double least_bend = 1e-3;
-
-  static std::int32_t to_index(float whole) { return static_cast<std::int32_t>(whole); }
-  static WideInt to_index(WideFloat whole) { return xsimd::to_int(whole); }
 
   std::vector<float> entries_;   // [roughness][mu]{scale, bias}
   std::vector<float> averages_;  // [roughness]{scale, bias}

@@ -60,7 +60,7 @@ TEST_F(RunVerb, PrintsTheReportAsJson) {
 TEST_F(RunVerb, ShowsWhatItWouldDoWithoutDoingIt) {
   const Outcome outcome = run(two_tables, {"--dry-run"});
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_THAT(outcome.out, HasSubstr("lut  a.exr  new"));
+  EXPECT_THAT(outcome.out, HasSubstr("(no set)  lut  new  a.exr"));
   EXPECT_FALSE(exists("out"));
 }
 

@@ -36,7 +36,7 @@ Layers node_aligned_image(Size size) {
 
 TEST(Environment, ReturnsATexelAtItsCentre) {
   const Layers image = sunny_environment({64, 32}, 100);
-  const Environment environment(image, false, 0);
+  const Environment environment(image);
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) {
       const Vec3<double> found = environment.radiance(test::texel_direction(image.size, x, y));
@@ -47,7 +47,7 @@ TEST(Environment, ReturnsATexelAtItsCentre) {
 }
 
 TEST(Environment, IsContinuousWhereTheImageWrapsAround) {
-  const Environment environment(sunny_environment({64, 32}, 100), false, 0);
+  const Environment environment(sunny_environment({64, 32}, 100));
   const auto at = [&](double u) {
     return environment.radiance(latlong_to_direction(Vec2<double>{u, 0.4})).y;
   };
@@ -56,7 +56,7 @@ TEST(Environment, IsContinuousWhereTheImageWrapsAround) {
 
 TEST(Environment, TurnsWhatWasAtPlusZTowardPlusX) {
   const Layers image = sunny_environment({64, 32}, 100);
-  const Environment still(image, false, 0), turned(image, false, 90);
+  const Environment still(image), turned(image, {.rotate_deg = 90});
   const Vec3<double> at_z = still.radiance(Vec3<double>{0.1, 0.2, 0.97});
   const Vec3<double> at_x = turned.radiance(Vec3<double>{0.97, 0.2, -0.1});
   EXPECT_NEAR(at_z.x, at_x.x, 1e-6);
@@ -67,7 +67,7 @@ TEST(Environment, TurnsWhatWasAtPlusZTowardPlusX) {
 
 TEST(Environment, TakesAnyTurn) {
   const Layers image = sunny_environment({64, 32}, 100);
-  const Environment a(image, false, -75), b(image, false, 285 + 720);
+  const Environment a(image, {.rotate_deg = -75}), b(image, {.rotate_deg = 285 + 720});
   const Vec3<double> d = random_direction(0, 0);
   EXPECT_NEAR(a.radiance(d).x, b.radiance(d).x, 1e-6);
 }
@@ -75,7 +75,7 @@ TEST(Environment, TakesAnyTurn) {
 TEST(Environment, SurvivesPolesAndWhatIsNoDirection) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
-  const Environment environment(sunny_environment({16, 8}, 100), false, 30);
+  const Environment environment(sunny_environment({16, 8}, 100), {.rotate_deg = 30});
   for (const Vec3<float>& d : {Vec3<float>{0, 1, 0},
                                {0, -1, 0},
                                {0, 0, -1},
@@ -99,7 +99,7 @@ TEST(Environment, SurvivesPolesAndWhatIsNoDirection) {
 
 TEST(Environment, ReadsNodeAlignedImagesAtTheirNodes) {
   const Layers image = node_aligned_image({33, 17});
-  const Environment environment(image, true, 0);
+  const Environment environment(image, {.node_aligned = true});
   for (int y = 1; y < 16; ++y) {
     for (int x = 0; x < 33; ++x) {
       const Vec3<double> d = latlong_to_direction(Vec2<double>{x / 32.0, y / 16.0});
@@ -123,22 +123,22 @@ void expect_density_integrates_to_one(const Environment& environment) {
 }
 
 TEST(EnvironmentDensity, IntegratesToOne) {
-  expect_density_integrates_to_one(Environment(sunny_environment({128, 64}, 1e4), false, 0));
-  expect_density_integrates_to_one(Environment(sunny_environment({100, 37}, 1e6), false, 0));
-  expect_density_integrates_to_one(Environment(node_aligned_image({65, 33}), true, 0));
-  expect_density_integrates_to_one(Environment(test::constant_environment({32, 16}, 0), false, 0));
-  expect_density_integrates_to_one(Environment(test::constant_environment({1, 1}, 1), false, 0));
+  expect_density_integrates_to_one(Environment(sunny_environment({128, 64}, 1e4)));
+  expect_density_integrates_to_one(Environment(sunny_environment({100, 37}, 1e6)));
+  expect_density_integrates_to_one(Environment(node_aligned_image({65, 33}), {.node_aligned = true}));
+  expect_density_integrates_to_one(Environment(test::constant_environment({32, 16}, 0)));
+  expect_density_integrates_to_one(Environment(test::constant_environment({1, 1}, 1)));
 }
 
 TEST(EnvironmentDensity, OfAConstantEnvironmentIsUniform) {
-  const Environment environment(test::constant_environment({64, 32}, 3), false, 0);
+  const Environment environment(test::constant_environment({64, 32}, 3));
   for (std::uint32_t i = 0; i < 100; ++i) {
     EXPECT_NEAR(environment.density(random_direction(3, i)) * 4 * pi, 1, 1e-4);
   }
 }
 
 TEST(EnvironmentDensity, IsPositiveEvenWhereThePlannedShareRoundsToNothing) {
-  const Environment environment(sunny_environment({256, 128}, 1e9), false, 0);
+  const Environment environment(sunny_environment({256, 128}, 1e9));
   for (std::uint32_t i = 0; i < 1000; ++i) {
     EXPECT_GE(environment.density(random_direction(4, i)) * 4 * pi,
               0.999 * Environment::uniform_share);
@@ -146,7 +146,7 @@ TEST(EnvironmentDensity, IsPositiveEvenWhereThePlannedShareRoundsToNothing) {
 }
 
 TEST(EnvironmentSample, StatesTheDensityAndRadianceOfItsDirection) {
-  const Environment environment(sunny_environment({128, 64}, 1e3), false, 40);
+  const Environment environment(sunny_environment({128, 64}, 1e3), {.rotate_deg = 40});
   int off_by_a_cell = 0;
   for (std::uint32_t i = 0; i < 10000; ++i) {
     const Vec2<double> u{random_unit(5, 2 * i), random_unit(5, 2 * i + 1)};
@@ -160,7 +160,7 @@ TEST(EnvironmentSample, StatesTheDensityAndRadianceOfItsDirection) {
 }
 
 TEST(EnvironmentSample, KeepsStrataInOrder) {
-  const Environment environment(sunny_environment({64, 32}, 50), false, 0);
+  const Environment environment(sunny_environment({64, 32}, 50));
   const double u_fixed = 0.37;
   double height = 2, turn = -1;
   for (int i = 0; i < 1000; ++i) {
@@ -176,7 +176,7 @@ TEST(EnvironmentSample, KeepsStrataInOrder) {
 }
 
 TEST(EnvironmentLookups, AreTheSameForWideNumbers) {
-  const Environment environment(sunny_environment({128, 64}, 1e3), false, 123);
+  const Environment environment(sunny_environment({128, 64}, 1e3), {.rotate_deg = 123});
   constexpr int lanes = lane_count<WideFloat>;
   for (std::uint32_t block = 0; block < 200; ++block) {
     float a[lanes], b[lanes];
@@ -200,7 +200,7 @@ TEST(EnvironmentLookups, AreTheSameForWideNumbers) {
 }
 
 TEST(EnvironmentLookups, InFloatFollowThoseInDouble) {
-  const Environment environment(sunny_environment({128, 64}, 10), false, 123);
+  const Environment environment(sunny_environment({128, 64}, 10), {.rotate_deg = 123});
   for (std::uint32_t i = 0; i < 2000; ++i) {
     const Vec3<double> d = random_direction(8, i);
     EXPECT_NEAR(environment.radiance(to_float(d)).x, environment.radiance(d).x, 1e-3);
@@ -208,15 +208,15 @@ TEST(EnvironmentLookups, InFloatFollowThoseInDouble) {
 }
 
 TEST(Environment, RefusesImagesThatAreNoEnvironment) {
-  EXPECT_THROW(Environment(Layers{}, false, 0), Error);
-  EXPECT_THROW(Environment(make_layers({4, 2}, {"R", "G"}), false, 0), Error);
-  EXPECT_THROW(Environment(make_layers({1, 1}, {"R", "G", "B"}), true, 0), Error);
+  EXPECT_THROW(Environment(Layers{}), Error);
+  EXPECT_THROW(Environment(make_layers({4, 2}, {"R", "G"})), Error);
+  EXPECT_THROW(Environment(make_layers({1, 1}, {"R", "G", "B"}), {.node_aligned = true}), Error);
 }
 
 TEST(Environment, TakesAGreyImage) {
   Layers grey{{8, 4}, {}};
   grey.add("Y", 0.25f);
-  EXPECT_FLOAT_EQ(Environment(grey, false, 0).radiance(Vec3<float>{0, 0, 1}).z, 0.25f);
+  EXPECT_FLOAT_EQ(Environment(grey).radiance(Vec3<float>{0, 0, 1}).z, 0.25f);
 }
 
 }  // namespace

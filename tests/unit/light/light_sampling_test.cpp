@@ -124,7 +124,7 @@ TEST(EnvironmentSampling, DrawsDirectionsByTheDensityItStates) {
   constexpr int count = 1 << 20;
   const double threshold = each_of(2 * static_cast<int>(all.size()));
   for (size_t i = 0; i < all.size(); ++i) {
-    const Environment environment(all[i].image, all[i].node_aligned, all[i].rotate_deg);
+    const Environment environment(all[i].image, {all[i].node_aligned, all[i].rotate_deg});
     const std::vector<double> shares = expected_shares(environment);
     std::vector<double> scalar(shares.size()), wide(shares.size());
     add_samples<float>(environment, static_cast<std::uint32_t>(2 * i), count, scalar);
@@ -157,7 +157,7 @@ Estimate estimate_irradiance(const Environment& environment, const Vec3<double>&
 
 TEST(EnvironmentSampling, EstimatesIrradiance) {
   const Layers image = test::sunny_environment({128, 64}, 1e3);
-  const Environment environment(image, false, 0);
+  const Environment environment(image);
   constexpr int normals = 12;
   std::array<Estimate, normals> estimates;
   for_rows(normals, [&](int i) {
