@@ -33,7 +33,8 @@ struct Stage {
   LightMade light;
   std::shared_ptr<const AlbedoTable> albedo = make_albedo_table();
 
-  explicit Stage(Size size) : material(varied(size)), light(make_light(sky(), {.prefiltered = true})) {}
+  explicit Stage(Size size)
+      : material(varied(size)), light(make_light(sky(), {.prefiltered = true})) {}
 
   Ingredients ingredients() const {
     Ingredients i;

@@ -15,7 +15,10 @@ void table_entries(benchmark::State& state, const char* name) {
   state.SetItemsProcessed(state.iterations() * n * n);
 }
 BENCHMARK_CAPTURE(table_entries, split_sum, "split-sum")
-    ->Arg(128)->Arg(256)->UseRealTime()->Unit(benchmark::kMillisecond);
+    ->Arg(128)
+    ->Arg(256)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 // The same with both errors found.
 void table_with_errors(benchmark::State& state) {

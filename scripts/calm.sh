@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-git ls-files -z --cached --others --exclude-standard -- '*.h' '*.cpp' | xargs -0 -r awk '
+scripts/sources.sh '*.h' '*.cpp' | xargs -0 -r awk '
   # A function opens on an unindented line, or inside a class on one indented by two, and closes
   # with a brace at the same indent.
   function closed() {

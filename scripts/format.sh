@@ -9,5 +9,5 @@ case ${1:-} in
   --check) mode=(--dry-run -Werror) ;;
   *) echo "usage: scripts/format.sh [--check]" >&2; exit 2 ;;
 esac
-git ls-files -z --cached --others --exclude-standard -- '*.h' '*.cpp' |
+scripts/sources.sh '*.h' '*.cpp' |
   xargs -0 -r -n 32 -P "$(nproc)" clang-format "${mode[@]}"

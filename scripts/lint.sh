@@ -9,6 +9,6 @@ scripts/setup.sh
 if [[ $# -gt 0 ]]; then
   printf '%s\0' "$@"
 else
-  git ls-files -z --cached --others --exclude-standard -- 'src/*.cpp'
+  scripts/sources.sh 'src/*.cpp'
 fi | xargs -0 -r -n 1 -P "$(nproc)" clang-tidy --quiet -p build/release 2>&1 |
   sed "/^[0-9]* warnings* generated\.$/d"

@@ -29,8 +29,8 @@ Layers fill_latlong(Size size, const Function& radiance) {
     for (int x = 0; x < size.width; ++x) {
       const Vec2<double> uv{(x + 0.5) / size.width, (y + 0.5) / size.height};
       const Vec3<double> d = latlong_to_direction(uv);
-      const Vec3<float> value = radiance(Vec3<float>{
-          static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
+      const Vec3<float> value = radiance(
+          Vec3<float>{static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
       image.layers[0].plane.at(x, y) = value.x;
       image.layers[1].plane.at(x, y) = value.y;
       image.layers[2].plane.at(x, y) = value.z;
@@ -63,12 +63,12 @@ Layers irradiance_face(const Layers& latlong, CubeFace face, int edge) {
 void add_cube(Baked& baked, const std::string& stem, const std::string& extension,
               const std::function<Layers(CubeFace)>& face) {
   for (int f = 0; f < 6; ++f) {
-    baked.artifacts.push_back({fmt::format("{}_{}", stem, cube_face_names[f]),
-                               extension,
-                               face(static_cast<CubeFace>(f)),
-                               "",
-                               {{"kiln:bake", "environment"},
-                                {"kiln:face", std::string(cube_face_names[f])}}});
+    baked.artifacts.push_back(
+        {fmt::format("{}_{}", stem, cube_face_names[f]),
+         extension,
+         face(static_cast<CubeFace>(f)),
+         "",
+         {{"kiln:bake", "environment"}, {"kiln:face", std::string(cube_face_names[f])}}});
   }
 }
 
@@ -81,14 +81,13 @@ void add_specular(Baked& baked, const Settings& settings, const SpecularChain& c
       continue;
     }
     const int height = chain.size(level);
-    baked.artifacts.push_back({stem,
-                               extension,
-                               fill_latlong({2 * height, height},
-                                            [&](const Vec3<float>& d) {
-                                              return chain.lookup_level(d, level);
-                                            }),
-                               "",
-                               {{"kiln:bake", "environment"}}});
+    baked.artifacts.push_back(
+        {stem,
+         extension,
+         fill_latlong({2 * height, height},
+                      [&](const Vec3<float>& d) { return chain.lookup_level(d, level); }),
+         "",
+         {{"kiln:bake", "environment"}}});
   }
 }
 
@@ -99,12 +98,12 @@ void add_irradiance(Baked& baked, const Settings& settings, const Light& light) 
              [&](CubeFace face) { return irradiance_face(light.latlong, face, 64); });
     return;
   }
-  baked.artifacts.push_back({"irradiance",
-                             extension,
-                             IrradianceMap(light.latlong).image(),
-                             "",
-                             {{"kiln:bake", "environment"},
-                              {"kiln:quantity", "irradiance over pi"}}});
+  baked.artifacts.push_back(
+      {"irradiance",
+       extension,
+       IrradianceMap(light.latlong).image(),
+       "",
+       {{"kiln:bake", "environment"}, {"kiln:quantity", "irradiance over pi"}}});
 }
 
 void add_text(Baked& baked, const std::string& name, const Json& json) {
@@ -113,8 +112,9 @@ void add_text(Baked& baked, const std::string& name, const Json& json) {
 
 Json describe_harmonics(const SphericalHarmonics& radiance) {
   Json json = {{"order", radiance.order},
-               {"basis", "real, no Condon-Shortley sign, L1-1 ~ y, L10 ~ z, L11 ~ x; (l, m) at "
-                         "l * l + l + m"}};
+               {"basis",
+                "real, no Condon-Shortley sign, L1-1 ~ y, L10 ~ z, L11 ~ x; (l, m) at "
+                "l * l + l + m"}};
   const SphericalHarmonics irradiance = irradiance_over_pi(radiance);
   for (const auto& c : radiance.coefficients) json["radiance"].push_back(to_json(c));
   for (const auto& c : irradiance.coefficients) json["irradiance_over_pi"].push_back(to_json(c));
@@ -140,8 +140,9 @@ Json describe_chain(const Settings& settings, const Light& light, const Specular
                    {"negative", light.fixed.negative},
                    {"clamped", 0},
                    {"lost_energy", 0}};
-  json["error"] = {{"meaning", "rms at texel centres against brute force, relative to the level's "
-                               "mean radiance, before encoding"},
+  json["error"] = {{"meaning",
+                    "rms at texel centres against brute force, relative to the level's "
+                    "mean radiance, before encoding"},
                    {"levels", errors}};
   json["version"] = 1;
   return json;

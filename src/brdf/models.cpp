@@ -8,7 +8,8 @@ template <class List>
 void append(std::vector<ModelFacts>& facts, const std::string& family) {
   List::for_each([&]<template <class> class Model>() {
     using M = Model<double>;
-    facts.push_back({family, std::string(M::name), std::string(M::summary), std::string(M::source)});
+    facts.push_back(
+        {family, std::string(M::name), std::string(M::summary), std::string(M::source)});
   });
 }
 

@@ -12,8 +12,7 @@ namespace {
 
 [[noreturn]] void refuse(const ParamFacts& facts, const std::string& text,
                          const std::string& expected) {
-  throw Error(Fault::Usage,
-              fmt::format("{}: found '{}', expected {}", facts.name, text, expected));
+  throw Error(Fault::Usage, fmt::format("{}: found '{}', expected {}", facts.name, text, expected));
 }
 
 std::string range_text(const ParamFacts& facts, std::string_view kind) {
@@ -28,7 +27,8 @@ T parse_whole(const ParamFacts& facts, std::string_view text, std::string_view k
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   const bool whole = result.ec == std::errc() && result.ptr == end;
-  const bool in_range = static_cast<double>(value) >= facts.min && static_cast<double>(value) <= facts.max;
+  const bool in_range =
+      static_cast<double>(value) >= facts.min && static_cast<double>(value) <= facts.max;
   if (!whole || !in_range) refuse(facts, std::string(text), range_text(facts, kind));
   return value;
 }

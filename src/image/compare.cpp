@@ -18,7 +18,8 @@ Difference compare(const Layers& a, const Layers& b) {
   std::vector<double> errors;
   for (const Layer& layer : a.layers) {
     const Plane* other = b.find(layer.name);
-    if (!other) throw Error(Fault::Input, fmt::format("channel '{}' is in one image only", layer.name));
+    if (!other)
+      throw Error(Fault::Input, fmt::format("channel '{}' is in one image only", layer.name));
     for (int y = 0; y < a.size.height; ++y) {
       for (int x = 0; x < a.size.width; ++x) {
         errors.push_back(std::abs(static_cast<double>(layer.plane.at(x, y)) - other->at(x, y)));

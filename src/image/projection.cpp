@@ -13,12 +13,18 @@ double latlong_texel_solid_angle(Size size, int y) {
 Vec3<double> cube_to_direction(CubeFace face, Vec2<double> uv) {
   const double s = 2 * uv.x - 1, t = 2 * uv.y - 1;
   switch (face) {
-    case CubeFace::px: return {1, -t, -s};
-    case CubeFace::nx: return {-1, -t, s};
-    case CubeFace::py: return {s, 1, t};
-    case CubeFace::ny: return {s, -1, -t};
-    case CubeFace::pz: return {s, -t, 1};
-    default: return {-s, -t, -1};
+    case CubeFace::px:
+      return {1, -t, -s};
+    case CubeFace::nx:
+      return {-1, -t, s};
+    case CubeFace::py:
+      return {s, 1, t};
+    case CubeFace::ny:
+      return {s, -1, -t};
+    case CubeFace::pz:
+      return {s, -t, 1};
+    default:
+      return {-s, -t, -1};
   }
 }
 

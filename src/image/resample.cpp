@@ -58,7 +58,8 @@ Plane resample(const Plane& plane, Size size) {
     for (int x = 0; x < size.width; ++x) {
       float sum = 0;
       const Taps& taps = across[x];
-      for (size_t k = 0; k < taps.weights.size(); ++k) sum += taps.weights[k] * from[taps.first + k];
+      for (size_t k = 0; k < taps.weights.size(); ++k)
+        sum += taps.weights[k] * from[taps.first + k];
       narrow.at(x, y) = sum;
     }
   });
@@ -83,7 +84,8 @@ Layers resample(const Layers& image, Size size) {
 }
 
 Plane halve(const Plane& plane) {
-  return resample(plane, {std::max(1, (plane.width() + 1) / 2), std::max(1, (plane.height() + 1) / 2)});
+  return resample(plane,
+                  {std::max(1, (plane.width() + 1) / 2), std::max(1, (plane.height() + 1) / 2)});
 }
 
 }  // namespace kiln

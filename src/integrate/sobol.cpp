@@ -11,8 +11,7 @@ struct Dimension {
   std::array<std::uint32_t, 3> initial;
 };
 
-constexpr Dimension later_dimensions[3] = {
-    {1, 0, {1, 0, 0}}, {2, 1, {1, 3, 0}}, {3, 1, {1, 3, 1}}};
+constexpr Dimension later_dimensions[3] = {{1, 0, {1, 0, 0}}, {2, 1, {1, 3, 0}}, {3, 1, {1, 3, 1}}};
 
 using Directions = std::array<std::uint32_t, 32>;
 

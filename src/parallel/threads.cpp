@@ -27,7 +27,8 @@ double control_group_quota() {
   }
   std::ifstream quota_file("/sys/fs/cgroup/cpu/cpu.cfs_quota_us");
   std::ifstream period_file("/sys/fs/cgroup/cpu/cpu.cfs_period_us");
-  if (quota_file >> quota && period_file >> period && quota > 0 && period > 0) return quota / period;
+  if (quota_file >> quota && period_file >> period && quota > 0 && period > 0)
+    return quota / period;
   return 0;
 }
 
@@ -45,9 +46,8 @@ struct ThreadLimit::Control {
 };
 
 ThreadLimit::ThreadLimit(int threads)
-    : control_(std::make_unique<Control>(
-          Control{{tbb::global_control::max_allowed_parallelism,
-                   static_cast<size_t>(std::max(1, threads))}})) {}
+    : control_(std::make_unique<Control>(Control{{tbb::global_control::max_allowed_parallelism,
+                                                  static_cast<size_t>(std::max(1, threads))}})) {}
 
 ThreadLimit::~ThreadLimit() = default;
 

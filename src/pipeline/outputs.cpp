@@ -13,55 +13,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Format {
-  std::string extension;
-  std::vector<PixelType> types;  ///< that it holds
-  PixelType picture, numbers;    ///< usual for each product
-};
-
-const std::vector<Format>& formats() {
-  using enum PixelType;
-  static const std::vector<Format> list = {{".exr", {Half, Float}, Half, Float},
-                                           {".png", {Uint8, Uint16}, Uint8, Uint16},
-                                           {".jpg", {Uint8}, Uint8, Uint8},
-                                           {".jpeg", {Uint8}, Uint8, Uint8},
-                                           {".hdr", {Float}, Float, Float},
-                                           {".tif", {Uint8, Uint16, Half, Float}, Float, Float},
-                                           {".tiff", {Uint8, Uint16, Half, Float}, Float, Float}};
-  return list;
-}
-
-bool is_jpeg(const std::string& extension) { return extension == ".jpg" || extension == ".jpeg"; }
-
 // Made for viewing: radiance goes through the display.
-bool is_for_viewing(const std::string& extension) {
-  return extension == ".png" || is_jpeg(extension);
+bool is_for_viewing(std::string_view format) { return format == "png" || format == "jpeg"; }
+
+bool holds_alpha(std::string_view format) { return format != "jpeg" && format != "hdr"; }
+
+bool is_image_name(const fs::path& path) {
+  const std::string extension = kebab(path.extension().string());
+  return std::any_of(writable_formats().begin(), writable_formats().end(), [&](const auto& format) {
+    return std::count(format.extensions.begin(), format.extensions.end(), extension) > 0;
+  });
 }
 
-bool is_format(const std::string& extension) {
-  return std::any_of(formats().begin(), formats().end(),
-                     [&](const Format& format) { return format.extension == extension; });
-}
-
-const Format& format_of(const std::string& extension) {
-  std::vector<std::string> known;
-  for (const Format& format : formats()) {
-    if (format.extension == extension) return format;
-    known.push_back(format.extension);
-  }
-  throw Error(Fault::Usage, unknown_name("file extension", extension, known));
-}
-
-void check_type(Product product, std::optional<PixelType> type, const std::string& extension) {
-  const Format& format = format_of(extension);
-  if (product == Product::Numbers && is_jpeg(extension)) {
+void check_type(Product product, std::optional<PixelType> type, const fs::path& path) {
+  const WritableFormat& format = writable_format(path);
+  if (product == Product::Numbers && format.name == "jpeg") {
     throw Error(Fault::Usage, "jpg loses numbers; expected exr, png, hdr or tif");
   }
-  if (!type) return;
-  if (std::count(format.types.begin(), format.types.end(), *type)) return;
+  if (!type || std::count(format.types.begin(), format.types.end(), *type)) return;
   std::vector<std::string_view> held;
   for (const PixelType known : format.types) held.push_back(pixel_type_name(known));
-  throw Error(Fault::Usage, fmt::format("type: {} does not hold {}, expected {}", extension,
+  throw Error(Fault::Usage, fmt::format("type: {} does not hold {}, expected {}", format.name,
                                         pixel_type_name(*type), fmt::join(held, " or ")));
 }
 
@@ -73,38 +45,76 @@ Layers colors_only(const Layers& image) {
   return kept;
 }
 
+// Colour times coverage, without the coverage: what a format without alpha can show.
+Layers over_black(const Layers& image) {
+  Layers flat = image;
+  const Plane* alpha = image.find("A");
+  std::erase_if(flat.layers, [](const Layer& layer) { return layer.name == "A"; });
+  if (!alpha) return flat;
+  for (Layer& layer : flat.layers) {
+    for (int y = 0; y < flat.size.height; ++y) {
+      float* row = layer.plane.row(y);
+      for (int x = 0; x < flat.size.width; ++x) row[x] *= alpha->at(x, y);
+    }
+  }
+  return flat;
+}
+
+// A picture as its format holds it: viewing formats through the display, errors only where channels
+// have names.
+Layers picture_for(const Plan& plan, const Task& task, const Layers& image, std::string_view format,
+                   const ColorConfig& config) {
+  if (format == "openexr") return image;
+  Layers colors = colors_only(image);
+  if (!holds_alpha(format)) colors = over_black(colors);
+  if (!is_for_viewing(format)) return colors;
+  return config.to_display(colors, plan.color.working, task.output.display);
+}
+
 // Colour by the name of the Color Interop Forum; numbers are "data".
-std::string color_name(const Plan& plan, const Task& task, const std::string& extension) {
+std::string color_name(const Plan& plan, const Task& task, std::string_view format) {
   if (task.product == Product::Numbers) return "data";
-  if (task.product == Product::Picture && is_for_viewing(extension)) return "";
+  if (task.product == Product::Picture && is_for_viewing(format)) return "";
   return plan.color.working;
 }
 
+// The type a file gets when nobody states one: numbers keep all they can, pictures what is usual.
+PixelType usual_type(Product product, const fs::path& path) {
+  const WritableFormat& format = writable_format(path);
+  const bool small =
+      product == Product::Picture && (is_for_viewing(format.name) || format.name == "openexr");
+  return small ? format.types.front() : format.types.back();
+}
+
 WriteOptions write_options(const Plan& plan, const Task& task, const Artifact& artifact,
-                           const std::string& extension) {
+                           const fs::path& path) {
+  const WritableFormat& format = writable_format(path);
   WriteOptions options;
-  options.type = task.output.type.value_or(usual_type(task.product, extension));
+  options.type = task.output.type.value_or(usual_type(task.product, path));
   options.attributes = artifact.attributes;
   options.attributes.emplace_back("Software", software());
-  const std::string color = color_name(plan, task, extension);
+  const std::string color = color_name(plan, task, format.name);
   if (!color.empty()) options.attributes.emplace_back("colorInteropID", color);
+  if (task.product != Product::Picture) return options;
+  options.alpha = AlphaStorage::Premultiplied;
+  const std::string& display = task.output.display.display;
+  const bool srgb = display.empty() || display == "sRGB";
+  if (is_for_viewing(format.name) && srgb) options.color_tag = ColorTag::Srgb;
   return options;
 }
 
 std::string write_image_of(const Plan& plan, const Task& task, const Artifact& artifact,
                            const fs::path& path, const ColorConfig& config) {
-  const std::string extension = path.extension().string();
-  const WriteOptions options = write_options(plan, task, artifact, extension);
-  const bool shown = task.product == Product::Picture && is_for_viewing(extension);
+  const std::string_view format = writable_format(path).name;
+  const WriteOptions options = write_options(plan, task, artifact, path);
   const WriteFacts facts =
-      shown ? write_image(path,
-                          config.to_display(colors_only(artifact.image), plan.color.working,
-                                            task.output.display),
-                          options)
-            : write_image(path, artifact.image, options);
+      task.product == Product::Picture
+          ? write_image(path, picture_for(plan, task, artifact.image, format, config), options)
+          : write_image(path, artifact.image, options);
   if (facts.clamped == 0) return "";
-  return fmt::format("{}: {} finite values beyond the range of {} were clamped",
-                     path.filename().string(), facts.clamped, pixel_type_name(options.type));
+  return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
+                     path.filename().string(), facts.clamped, pixel_type_name(options.type),
+                     facts.largest_clamped);
 }
 
 std::string output_name(const Task& task, const Artifact& artifact) {
@@ -130,18 +140,18 @@ void check_output(const Task& task) {
   }
   const std::string extension = out.extension().string();
   if (task.product == Product::Folder) {
-    if (is_format(extension)) {
+    if (is_image_name(out)) {
       throw Error(Fault::Usage, fmt::format("out: found '{}', expected a folder: {} makes several "
                                             "files",
                                             task.out, task.bake));
     }
-    return check_type(task.product, task.output.type, ".exr");
+    return check_type(task.product, task.output.type, "any.exr");
   }
   if (!out.has_filename() || extension.empty()) {
     throw Error(Fault::Usage,
                 fmt::format("out: found '{}', expected a file name with an extension", task.out));
   }
-  check_type(task.product, task.output.type, extension);
+  check_type(task.product, task.output.type, out);
 }
 
 bool collide(const std::string& a, const std::string& b) {
@@ -150,11 +160,6 @@ bool collide(const std::string& a, const std::string& b) {
            (name.size() > folder.size() && name.starts_with(folder) && name[folder.size()] == '/');
   };
   return a == b || holds(a, b) || holds(b, a);
-}
-
-PixelType usual_type(Product product, const std::string& extension) {
-  const Format& format = format_of(extension);
-  return product == Product::Numbers ? format.numbers : format.picture;
 }
 
 Written write_outputs(const Plan& plan, const Task& task, const Baked& baked,

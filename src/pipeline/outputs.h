@@ -14,9 +14,6 @@ void check_output(const Task& task);
 /// Whether one name is the other, or a folder that holds it.
 bool collide(const std::string& a, const std::string& b);
 
-/// The type a file gets when nobody states one.
-PixelType usual_type(Product product, const std::string& extension);
-
 struct Written {
   std::vector<std::string> outputs;  ///< below the output folder, with '/'
   std::vector<std::string> notes;

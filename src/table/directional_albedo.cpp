@@ -51,7 +51,8 @@ void add_slope(const View& view, const Ggx<Wide>& ggx, Wide t, Wide weight, Sums
   const Wide g2 = Wide(2.0) * view.mu * mu_i / fma(view.stretched, mu_i, view.mu * stretched_i);
   const Wide cosine = fma(view.sine * t, view.cos_p, view.mu) * sqrt(inverse);
   const Wide fc = Schlick<Wide>::grazing_weight(cosine);
-  const Wide lobe = weight * ggx.P22(square(t / alpha)) * t * fma(t, view.tau_cos_p, Wide(1.0)) * g2;
+  const Wide lobe =
+      weight * ggx.P22(square(t / alpha)) * t * fma(t, view.tau_cos_p, Wide(1.0)) * g2;
   sums.bias = fma(lobe, fc, sums.bias);
   sums.scale = fma(lobe, Wide(1.0) - fc, sums.scale);
 }

@@ -20,7 +20,9 @@ std::vector<TableFacts> make_list() {
       {"split-sum",
        "F0 * scale + F90 * bias is the reflectance of the specular lobe",
        {{"R", "scale: multiplies F0"}, {"G", "bias: multiplies F90"}},
-       [](const Terms& terms) { return std::vector{terms.scale, terms.bias}; }},
+       [](const Terms& terms) {
+         return std::vector{terms.scale, terms.bias};
+       }},
       {"directional-albedo",
        "share of light that the specular lobe reflects with F = 1",
        {{"Y", "E: directional albedo"}},

@@ -22,7 +22,8 @@ TEST(EveryBake, AcceptsItsOwnDefaults) {
     const auto recipe = make_recipe(bake.name);
     for (const ParamFacts& param : bake.params) {
       if (param.default_text == "input") continue;  // a size taken from the maps
-      EXPECT_NO_THROW(recipe->set(param.name, param.default_text)) << bake.name << "." << param.name;
+      EXPECT_NO_THROW(recipe->set(param.name, param.default_text))
+          << bake.name << "." << param.name;
     }
   }
 }

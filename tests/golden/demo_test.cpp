@@ -6,7 +6,7 @@
 
 #include "kiln/image/compare.h"
 #include "kiln/io/image_file.h"
-#include "unit/cli/command.h"
+#include "support/command.h"
 
 namespace kiln {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kiln/image/layers.h"
-#include "kiln/math/wide.h"
 #include "kiln/math/vec.h"
+#include "kiln/math/wide.h"
 
 namespace kiln {
 

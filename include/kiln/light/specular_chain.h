@@ -9,9 +9,9 @@
 
 #include "kiln/image/layers.h"
 #include "kiln/image/projection.h"
-#include "kiln/math/wide.h"
 #include "kiln/light/turn.h"
 #include "kiln/math/vec.h"
+#include "kiln/math/wide.h"
 
 namespace kiln {
 

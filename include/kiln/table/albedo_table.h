@@ -11,8 +11,8 @@ namespace kiln {
 template <class F>
 struct AlbedoRow {
   LaneIndex<F> first;  ///< entry (0, row)
-  F blend;      ///< toward the next row
-  F bend;       ///< c of the cosine axis
+  F blend;             ///< toward the next row
+  F bend;              ///< c of the cosine axis
 };
 
 /// Split-sum terms of GGX with height-correlated Smith masking, tabulated for texel loops.

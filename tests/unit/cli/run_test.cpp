@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "command.h"
 #include "kiln/image/layers.h"
+#include "support/command.h"
 
 namespace kiln {
 namespace {

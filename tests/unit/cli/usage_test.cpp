@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "command.h"
+#include "support/command.h"
 
 namespace kiln {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "command.h"
 #include "kiln/image/layers.h"
+#include "support/command.h"
 
 namespace kiln {
 namespace {

@@ -60,7 +60,7 @@ TEST_F(Module, IsFoundBesideTheProgram) {
 }
 
 TEST_F(Module, IsNotNeededForOpenExrAndRadiance) {
-  const Outcome outcome = run_elsewhere("KILN_MODULE_PATH=", "OpenExr.*:RadianceHdr.*");
+  const Outcome outcome = run_elsewhere("KILN_MODULE_PATH=", "OpenExr.*:RadianceHdr.Writes*");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
 }
 

@@ -125,7 +125,8 @@ void expect_density_integrates_to_one(const Environment& environment) {
 TEST(EnvironmentDensity, IntegratesToOne) {
   expect_density_integrates_to_one(Environment(sunny_environment({128, 64}, 1e4)));
   expect_density_integrates_to_one(Environment(sunny_environment({100, 37}, 1e6)));
-  expect_density_integrates_to_one(Environment(node_aligned_image({65, 33}), {.node_aligned = true}));
+  expect_density_integrates_to_one(
+      Environment(node_aligned_image({65, 33}), {.node_aligned = true}));
   expect_density_integrates_to_one(Environment(test::constant_environment({32, 16}, 0)));
   expect_density_integrates_to_one(Environment(test::constant_environment({1, 1}, 1)));
 }

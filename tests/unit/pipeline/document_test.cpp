@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "workshop.h"
+#include "support/workshop.h"
 
 namespace kiln {
 namespace {

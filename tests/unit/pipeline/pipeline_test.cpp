@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "workshop.h"
+#include "support/workshop.h"
 
 namespace kiln {
 namespace {

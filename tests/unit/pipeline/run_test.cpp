@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "workshop.h"
+#include "support/workshop.h"
 
 namespace kiln {
 namespace {

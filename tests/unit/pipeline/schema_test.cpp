@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kiln/brdf/models.h"
-#include "workshop.h"
+#include "support/workshop.h"
 
 namespace kiln {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "unit/pipeline/workshop.h"
+#include "workshop.h"
 
 namespace kiln::test {
 
