@@ -96,6 +96,7 @@ const Verb* find_verb(const std::vector<Verb>& verbs, const std::string& name) {
                 fmt::format("expected a verb first, found '{}' (see kiln --help)", word));
   }
   std::vector<std::string> names;
+  names.reserve(verbs.size());
   for (const Verb& verb : verbs) names.push_back(verb.name);
   throw Error(Fault::Usage, unknown_name("verb", word, names));
 }

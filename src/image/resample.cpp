@@ -40,6 +40,7 @@ Taps bilinear_taps(int i, int in, int out) {
 
 std::vector<Taps> taps_of_axis(int in, int out) {
   std::vector<Taps> taps;
+  taps.reserve(static_cast<size_t>(out));
   for (int i = 0; i < out; ++i) {
     taps.push_back(out <= in ? area_taps(i, in, out) : bilinear_taps(i, in, out));
   }

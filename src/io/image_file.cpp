@@ -171,15 +171,15 @@ const std::vector<WritableFormat>& writable_formats() {
 
 const WritableFormat& writable_format(const fs::path& path) {
   const std::string extension = kebab(path.extension().string());
-  std::vector<std::string_view> known;
+  std::vector<std::string> known;
   for (const WritableFormat& format : writable_formats()) {
     for (const std::string_view one : format.extensions) {
       if (one == extension) return format;
-      known.push_back(one);
+      known.emplace_back(one);
     }
   }
-  throw Error(Fault::Usage, fmt::format("{}: found extension '{}', expected one of {}",
-                                        path.string(), extension, fmt::join(known, " ")));
+  throw Error(Fault::Usage,
+              path.string() + ": " + unknown_name("file extension", extension, known));
 }
 
 WriteFacts write_image(const fs::path& path, const Layers& image, const WriteOptions& options) {

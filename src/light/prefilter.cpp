@@ -150,6 +150,7 @@ int times_finer(int found, int needed) {
 
 std::vector<ZonalKernel> expand_lobes(const std::vector<FilteredLevel>& levels) {
   std::vector<ZonalKernel> kernels;
+  kernels.reserve(levels.size());
   for (const FilteredLevel& level : levels) {
     kernels.push_back(expand_ggx_lobe(level.alpha, cut_off, highest_order));
   }

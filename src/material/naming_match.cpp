@@ -32,7 +32,7 @@ std::optional<TokenMatch> match_ending_at(const std::vector<NameWord>& words, si
   std::optional<TokenMatch> longest;
   std::string spelled;
   for (size_t first = last + 1; first-- > 0;) {
-    spelled = words[first].text + spelled;
+    spelled.insert(0, words[first].text);
     if (only_at_end(spelled) && !at_end) continue;
     if (spelled.size() == 1 && !words[first].separated) continue;
     if (const auto match = token_spelled(spelled, schemes)) longest = match;

@@ -21,9 +21,9 @@ struct Reading {
   Mistakes& mistakes;
 };
 
-std::string text_at(const Node& block, std::string_view key, std::string initial = {}) {
+std::string text_at(const Node& block, std::string_view key, const std::string& initial = {}) {
   const Node* node = block.find(key);
-  return node ? node->text : std::move(initial);
+  return node ? node->text : initial;
 }
 
 // Calls use(node) when the key is there.
