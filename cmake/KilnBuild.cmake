@@ -28,7 +28,6 @@ set_property(TARGET xsimd PROPERTY INTERFACE_LINK_LIBRARIES "")  # Debian's name
 pkg_check_modules(OpenEXR REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO)
-pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 
 # Warnings, instruction set and floating-point contract of our own code.
 # No -ffast-math: NaN keeps meaning NaN, and fused operations are written as fma.

@@ -24,7 +24,8 @@ class Console {
  public:
   Console(ProgressStyle style, const Globals& globals)
       : style_(style),
-        verbose_(globals.verbose),
+        // A log tells everything; a bar only what went wrong.
+        tells_all_(globals.verbose || (style == ProgressStyle::Plain && !globals.quiet)),
         quiet_(globals.quiet),
         colored_(globals.color == "always" ||
                  (globals.color == "auto" && isatty(STDERR_FILENO) != 0)) {}
@@ -41,12 +42,12 @@ class Console {
     } else if (style_ == ProgressStyle::Plain) {
       line(text);
     }
-    if (verbose_) notes(record);
+    if (tells_all_) notes(record);
     if (style_ == ProgressStyle::Terminal) last(record, progress);
   }
 
   void say(const std::string& text) {
-    if (verbose_) line(text);
+    if (tells_all_) line(text);
   }
 
   void warn(const std::string& text) {
@@ -84,7 +85,7 @@ class Console {
   }
 
   ProgressStyle style_;
-  bool verbose_, quiet_, colored_;
+  bool tells_all_, quiet_, colored_;
   bool drawn_ = false;
 };
 

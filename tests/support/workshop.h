@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,26 +10,15 @@
 
 #include "kiln/core/error.h"
 #include "kiln/io/image_file.h"
+#include "temporary_folder.h"
 
 namespace kiln::test {
 
 /// A fresh folder for the length of a test, with ways to put small files into it.
-class Workshop {
+class Workshop : public TemporaryFolder {
  public:
-  Workshop() {
-    std::string name = (std::filesystem::temp_directory_path() / "kiln_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-  }
-  ~Workshop() { std::filesystem::remove_all(folder_); }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-
-  const std::filesystem::path& folder() const { return folder_; }
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path path = folder_ / name;
+    const std::filesystem::path path = folder() / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path, std::ios::binary) << text;
     return path;
@@ -39,7 +27,7 @@ class Workshop {
   /// An image of one value, three channels.
   std::filesystem::path paint(const std::string& name, float value, PixelType type,
                               Size size = {4, 4}) const {
-    const std::filesystem::path path = folder_ / name;
+    const std::filesystem::path path = folder() / name;
     Layers image{size, {}};
     for (const char* channel : {"R", "G", "B"})
       image.layers.push_back({channel, Plane(size, value)});
@@ -55,9 +43,6 @@ class Workshop {
     paint(stem + "_Roughness" + extension, 0.5f, type);
     paint(stem + "_Metallic" + extension, 0.0f, type);
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 inline std::string text_of(const std::filesystem::path& path) {

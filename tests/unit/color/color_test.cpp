@@ -12,10 +12,13 @@
 #include <tuple>
 
 #include "kiln/core/error.h"
+#include "support/faults.h"
 #include "support/real_data.h"
 
 namespace kiln {
 namespace {
+
+using test::fault_text;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -56,18 +59,6 @@ Layers ramp(Size size, double from, double to) {
     }
   }
   return image;
-}
-
-template <class Work>
-std::string fault_text(Fault fault, Work&& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), fault) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
 }
 
 TEST(BuiltinColorConfig, IsTheShippedFileWordForWord) {

@@ -86,8 +86,9 @@ class WriteFault : public ImageFolder {
 };
 
 TEST_F(WriteFault, NamesTheExtensionsItKnows) {
-  EXPECT_THAT(fault_text(Fault::Usage, [&] { write_image(folder / "a.bmp", image, {}); }),
-              HasSubstr("unknown file extension '.bmp' (known: .exr, .hdr, .png, .jpg, .jpeg, .tif"));
+  EXPECT_THAT(
+      fault_text(Fault::Usage, [&] { write_image(folder / "a.bmp", image, {}); }),
+      HasSubstr("unknown file extension '.bmp' (known: .exr, .hdr, .png, .jpg, .jpeg, .tif"));
   EXPECT_THAT(fault_text(Fault::Usage, [&] { write_image(folder / "a", image, {}); }),
               HasSubstr("unknown file extension ''"));
   EXPECT_TRUE(names().empty());

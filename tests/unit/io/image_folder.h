@@ -2,7 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,8 @@
 
 #include "kiln/core/error.h"
 #include "kiln/io/image_file.h"
+#include "support/faults.h"
+#include "support/temporary_folder.h"
 
 namespace kiln::test {
 
@@ -21,13 +22,6 @@ namespace fs = std::filesystem;
 /// A test with a fresh folder of its own.
 class ImageFolder : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "kiln_io_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   fs::path write_bytes(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder / name, std::ios::binary) << bytes;
     return folder / name;
@@ -44,21 +38,9 @@ class ImageFolder : public testing::Test {
     return result;
   }
 
-  fs::path folder;
+  const TemporaryFolder own;
+  const fs::path folder = own.folder();
 };
-
-/// The message of the Error that `work` throws, which must be of this fault.
-template <class Work>
-std::string fault_text(Fault fault, Work&& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.fault(), fault) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
-}
 
 /// A file name of this format.
 inline std::string named(std::string stem, const WritableFormat& format) {

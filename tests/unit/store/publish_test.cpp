@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "kiln/core/error.h"
+#include "support/temporary_folder.h"
 
 namespace kiln {
 namespace {
@@ -23,13 +24,6 @@ using testing::HasSubstr;
 
 class Publishing : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "kiln_store_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static std::string contents(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -53,7 +47,8 @@ class Publishing : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder own_;
+  const fs::path folder_ = own_.folder();
 };
 
 TEST_F(Publishing, PutsTheWholeFileInPlace) {

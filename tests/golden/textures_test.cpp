@@ -10,6 +10,7 @@
 #include "environments.h"
 #include "kiln/image/projection.h"
 #include "kiln/io/image_file.h"
+#include "support/temporary_folder.h"
 #include "surface.h"
 
 namespace kiln::textures {
@@ -18,22 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path shipped = fs::path(KILN_SOURCE_DIR) / "textures";
-
-/// A folder that is gone when the test is over.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "kiln-textures-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~Scratch() { fs::remove_all(folder_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& folder() const { return folder_; }
-
- private:
-  fs::path folder_;
-};
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -96,7 +81,7 @@ double correlation(const Plane& a, const Plane& b) {
 }
 
 TEST(ShippedTextures, AreWhatTheirGeneratorPaints) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   const Set set = brushed_steel();
   write_set(set, scratch.folder());
   for (const MapFile& file : set.files) {
@@ -105,14 +90,15 @@ TEST(ShippedTextures, AreWhatTheirGeneratorPaints) {
 }
 
 TEST(ShippedTextures, OfTheStudioAreWhatTheirGeneratorPaints) {
-  const Scratch scratch;
+  const test::TemporaryFolder scratch;
   write_surroundings(studio(), scratch.folder());
   expect_same_texels(shipped / "env" / "studio.exr", scratch.folder() / "env" / "studio.exr");
 }
 
 TEST(ShippedTextures, ComeOutByteForByteTheSameTwice) {
-  const Scratch first, second;
-  for (const Scratch* scratch : {&first, &second}) write_surroundings(studio(), scratch->folder());
+  const test::TemporaryFolder first, second;
+  for (const test::TemporaryFolder* scratch : {&first, &second})
+    write_surroundings(studio(), scratch->folder());
   EXPECT_EQ(bytes_of(first.folder() / "env" / "studio.exr"),
             bytes_of(second.folder() / "env" / "studio.exr"));
 }
