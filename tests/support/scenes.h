@@ -57,9 +57,9 @@ inline Layers preview(const Svbrdf& material, const Layers& latlong, const Setti
   for (const auto& [name, value] : settings) recipe->set(name, value);
   LightSettings light_settings;
   light_settings.prefiltered = recipe->needs().prefiltered;
-  light_settings.size = 64;
+  light_settings.size = 32;
   const LightMade made = make_light(latlong, light_settings);
-  const auto albedo = make_albedo_table();
+  static const auto albedo = make_albedo_table();
   Ingredients ingredients;
   ingredients.material = &material;
   ingredients.light = made.light.get();
