@@ -50,7 +50,7 @@ std::vector<Vec3<double>> face_normals(CubeFace face, int edge) {
 }
 
 Layers irradiance_face(const Layers& latlong, CubeFace face, int edge) {
-  const auto values = irradiance_over_pi(latlong, face_normals(face, edge));
+  const auto values = normalised_irradiance(latlong, face_normals(face, edge));
   Layers image = make_layers({edge, edge}, {"R", "G", "B"});
   for (int i = 0; i < edge * edge; ++i) {
     image.layers[0].plane.at(i % edge, i / edge) = static_cast<float>(values[i].x);

@@ -126,22 +126,31 @@ std::vector<Vec3<double>> irradiance_over_pi(const Layers& latlong,
   return irradiance;
 }
 
+// The sum over texel centres gives a constant environment up to their spacing; dividing by what it
+// makes of the constant 1 gives it exactly.
+std::vector<Vec3<double>> normalised_irradiance(const Layers& latlong,
+                                                std::span<const Vec3<double>> normals) {
+  Layers white{latlong.size, {}};
+  white.add("Y", 1.0f);
+  const auto constant = irradiance_over_pi(white, normals);
+  auto irradiance = irradiance_over_pi(latlong, normals);
+  for (size_t i = 0; i < irradiance.size(); ++i) {
+    irradiance[i] = irradiance[i] * (1 / constant[i].x);
+  }
+  return irradiance;
+}
+
 IrradianceMap::IrradianceMap(const Layers& latlong, double rotate_deg)
     : image_(make_layers(map_size, {"R", "G", "B"})), turn_(rotate_deg) {
   std::vector<Vec3<double>> normals;
   for (int y = 0; y < map_size.height; ++y) {
     for (int x = 0; x < map_size.width; ++x) normals.push_back(texel_direction(map_size, x, y));
   }
-  const auto irradiance = irradiance_over_pi(latlong, normals);
-  // The sum over texel centres gives a constant environment up to their spacing; dividing by what
-  // it makes of the constant 1 gives it exactly.
-  Layers white{latlong.size, {}};
-  white.add("Y", 1.0f);
-  const auto constant = irradiance_over_pi(white, normals);
+  const auto irradiance = normalised_irradiance(latlong, normals);
   for (int y = 0; y < map_size.height; ++y) {
     for (int x = 0; x < map_size.width; ++x) {
       const auto at = static_cast<size_t>(y * map_size.width + x);
-      const Vec3<double> value = irradiance[at] * (1 / constant[at].x);
+      const Vec3<double>& value = irradiance[at];
       image_.layers[0].plane.at(x, y) = static_cast<float>(value.x);
       image_.layers[1].plane.at(x, y) = static_cast<float>(value.y);
       image_.layers[2].plane.at(x, y) = static_cast<float>(value.z);

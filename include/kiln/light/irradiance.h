@@ -27,6 +27,11 @@ Vec3<double> irradiance_over_pi(const Layers& latlong, const Vec3<double>& n);
 std::vector<Vec3<double>> irradiance_over_pi(const Layers& latlong,
                                              std::span<const Vec3<double>> normals);
 
+/// The same divided by what the sum makes of the constant 1: a constant environment gives that
+/// constant, whatever its size.
+std::vector<Vec3<double>> normalised_irradiance(const Layers& latlong,
+                                                std::span<const Vec3<double>> normals);
+
 /// Irradiance over pi of every normal, as a small lat-long image: the sum above over the same sum
 /// for the constant 1, so that a constant environment gives that constant.
 class IrradianceMap {

@@ -25,8 +25,7 @@ const Artifact& find(const Baked& baked, const std::string& name) {
 }
 
 TEST(EnvironmentBake, OfAConstantIsThatConstantEverywhere) {
-  // Rows of 1/512 of a turn: solid angles at texel centres then err by 1e-6.
-  const Layers room = test::make_latlong({512, 256}, [](const Vec3<double>&) { return 0.75; });
+  const Layers room = test::constant_latlong(0.75);
   for (const char* layout : {"cube", "latlong"}) {
     const Baked baked = bake_environment(room, {{"size", "32"}, {"layout", layout}});
     for (const Artifact& artifact : baked.artifacts) {
