@@ -61,6 +61,8 @@ double mean_of(const Layers& image, const std::vector<std::string>& names) {
   return sum / (static_cast<double>(area(image.size)) * static_cast<double>(names.size()));
 }
 
+const std::vector<std::string> shape_words = {"flat", "sphere"};
+const std::vector<std::string> mode_words = {"reference", "split-sum", "difference"};
 const std::vector<std::string> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
 constexpr int most_samples = 1 << 14;
 
@@ -97,31 +99,21 @@ void subtract(Layers& from, const Layers& image) {
 
 std::vector<std::pair<std::string, std::string>> describe_file(const Settings& settings,
                                                                const ShadingInputs& inputs) {
-  const auto word = [&](const char* name) {
-    for (const auto& param : PreviewBake::params()) {
-      if (param.facts.name != name) continue;
-      const bool shape = param.facts.name == "shape";
-      return param.facts.choices[static_cast<size_t>(shape ? static_cast<int>(settings.shape)
-                                                           : static_cast<int>(settings.mode))];
-    }
-    return std::string();
-  };
+  const bool multiscatter = inputs.energy == Energy::Multiscatter;
   return {{"kiln:bake", "preview"},
-          {"kiln:shape", word("shape")},
-          {"kiln:mode", word("mode")},
-          {"kiln:models",
-           fmt::format("distribution=ggx masking=smith-correlated fresnel=schlick "
-                       "diffuse={} energy={}",
-                       inputs.diffuse,
-                       inputs.energy == Energy::Multiscatter ? "multiscatter" : "single")}};
+          {"kiln:shape", shape_words[static_cast<size_t>(settings.shape)]},
+          {"kiln:mode", mode_words[static_cast<size_t>(settings.mode)]},
+          {"kiln:models", fmt::format("distribution=ggx masking=smith-correlated fresnel=schlick "
+                                      "diffuse={} energy={}",
+                                      inputs.diffuse, multiscatter ? "multiscatter" : "single")}};
 }
 
 }  // namespace
 
 Params<Settings> PreviewBake::params() {
   return {
-      word_param("shape", &Settings::shape, {"flat", "sphere"}, "a plane or a ball"),
-      word_param("mode", &Settings::mode, {"reference", "split-sum", "difference"},
+      word_param("shape", &Settings::shape, shape_words, "a plane or a ball"),
+      word_param("mode", &Settings::mode, mode_words,
                  "true light transport, what an engine shows, or the second minus the first"),
       integer_param("samples", &Settings::samples, {1, most_samples},
                     "light directions per texel (reference), rounded up to whole repetitions"),
