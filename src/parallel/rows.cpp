@@ -24,8 +24,4 @@ std::vector<double> sum_rows(int count, int width,
   return total;
 }
 
-void run_together(const std::vector<std::function<void()>>& jobs) {
-  for_rows(static_cast<int>(jobs.size()), [&](int i) { jobs[static_cast<size_t>(i)](); });
-}
-
 }  // namespace kiln

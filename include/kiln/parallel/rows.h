@@ -15,7 +15,4 @@ void for_rows(int count, const std::function<void(int)>& row);
 std::vector<double> sum_rows(int count, int width,
                              const std::function<void(int, std::vector<double>&)>& row);
 
-/// Runs first(), second(), ... side by side.
-void run_together(const std::vector<std::function<void()>>& jobs);
-
 }  // namespace kiln
