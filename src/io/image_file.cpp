@@ -5,6 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
 
 #include "file_bytes.h"
 #include "kiln/core/error.h"
@@ -15,6 +18,8 @@
 #include "radiance_hdr.h"
 #include "samples.h"
 #include "signature.h"
+#include "table_files.h"
+#include "texel_pack.h"
 
 namespace kiln {
 namespace {
@@ -46,21 +51,25 @@ void check_planes(const fs::path& path, const Layers& image) {
 }
 
 // R G B A (or Y A) in that order where all names are of these, else as the layers stand.
-io::StoredPlanes in_file_order(const Layers& image) {
-  std::vector<const Layer*> layers;
-  for (const Layer& layer : image.layers) layers.push_back(&layer);
-  const auto rank = [](const Layer* layer) { return io::channel_rank(layer->name); };
-  const bool all_known = std::all_of(layers.begin(), layers.end(), [&](const Layer* layer) {
-    return rank(layer) <= io::channel_rank("A");
-  });
+io::StoredPlanes in_file_order(const Layers& image, const Labels& labels) {
+  std::vector<size_t> order(image.layers.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto rank = [&](size_t at) { return io::channel_rank(image.layers[at].name); };
+  const bool all_known = std::all_of(order.begin(), order.end(),
+                                     [&](size_t at) { return rank(at) <= io::channel_rank("A"); });
   if (all_known) {
-    std::stable_sort(layers.begin(), layers.end(),
-                     [&](const Layer* a, const Layer* b) { return rank(a) < rank(b); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return rank(a) < rank(b); });
   }
+  const bool labelled = labels.channels.size() == order.size();
   io::StoredPlanes stored;
-  for (const Layer* layer : layers) {
-    if (layer->name == "A") stored.alpha_channel = static_cast<int>(stored.planes.size());
-    stored.planes.push_back(&layer->plane);
+  stored.planes.reserve(order.size());
+  stored.names.reserve(order.size());
+  for (const size_t at : order) {
+    const Layer& layer = image.layers[at];
+    if (layer.name == "A") stored.alpha_channel = static_cast<int>(stored.planes.size());
+    stored.planes.push_back(&layer.plane);
+    stored.names.push_back(labelled ? labels.channels[at] : layer.name);
   }
   return stored;
 }
@@ -73,14 +82,23 @@ io::StoredPlanes in_file_order(const Layers& image) {
                                         fmt::join(found, " "), format.name, format.channels));
 }
 
-// Formats of colour: two channels that are no grey with alpha get a third of zeros.
-void complete_color(io::StoredPlanes& stored) {
-  if (stored.planes.size() == 2 && stored.alpha_channel < 0) stored.planes.resize(3, nullptr);
+bool holds_tables(const WritableFormat& format) {
+  constexpr std::array names{"dds", "ktx2", "npy", "csv", "h"};
+  return std::count(names.begin(), names.end(), format.name) > 0;
 }
 
-io::StoredPlanes planes_for(const fs::path& path, const WritableFormat& format,
-                            const Layers& image) {
-  io::StoredPlanes stored = in_file_order(image);
+// The number of channels is all that limits textures, and files of tables hold any.
+io::StoredPlanes planes_of_table(const fs::path& path, const WritableFormat& format,
+                                 const Layers& image, const WriteOptions& options) {
+  io::StoredPlanes stored = in_file_order(image, options.labels);
+  const bool texture = format.name == "dds" || format.name == "ktx2";
+  if (texture && stored.planes.size() > 4) refuse_channels(path, format, image);
+  return stored;
+}
+
+io::StoredPlanes planes_of_picture(const fs::path& path, const WritableFormat& format,
+                                   const Layers& image, const WriteOptions& options) {
+  io::StoredPlanes stored = in_file_order(image, options.labels);
   if (format.name == "tiff") return stored;
   const bool holds_alpha = format.name == "png";
   const size_t most = holds_alpha ? 4 : 3;
@@ -92,16 +110,29 @@ io::StoredPlanes planes_for(const fs::path& path, const WritableFormat& format,
   }
   if (stored.planes.size() == 4) stored.alpha_channel = 3;
   if (stored.planes.size() == 1) stored.alpha_channel = -1;
-  complete_color(stored);
+  // Formats of colour: two channels that are no grey with alpha get a third of zeros.
+  if (stored.planes.size() == 2 && stored.alpha_channel < 0) stored.planes.resize(3, nullptr);
   return stored;
 }
 
-std::string encoded(const WritableFormat& format, const Layers& image,
-                    const io::StoredPlanes& stored, WriteOptions options, WriteFacts& facts) {
+void check_rgbd(const fs::path& path, const io::StoredPlanes& stored, PixelType type) {
+  if (type != PixelType::Rgbd8 || (stored.planes.size() <= 3 && stored.alpha_channel < 0)) return;
+  throw Error(Fault::Usage, fmt::format("{}: found {} channels; rgbd8 holds 1 to 3, its alpha is a "
+                                        "divisor of theirs",
+                                        path.string(), stored.planes.size()));
+}
+
+std::string encoded_picture(const WritableFormat& format, Size size, const io::StoredPlanes& stored,
+                            WriteOptions options, WriteFacts& facts) {
   if (format.name == "hdr") {
     std::vector<const Plane*> planes = stored.planes;
     std::erase(planes, nullptr);
-    return io::encode_hdr(planes, facts);
+    return io::encode_hdr(planes, options.attributes, facts);
+  }
+  if (options.type == PixelType::Rgbd8) {
+    const Layers coded = io::rgbd_image(size, stored, facts);
+    options.type = PixelType::Uint8;
+    return encoded_picture(format, size, io::planes_of(coded), std::move(options), facts);
   }
   if (format.name == "jpeg") options.attributes.clear();
   if (options.color_tag == ColorTag::Srgb) {
@@ -109,7 +140,19 @@ std::string encoded(const WritableFormat& format, const Layers& image,
   } else if (options.color_tag == ColorTag::Linear) {
     options.attributes.emplace_back("oiio:ColorSpace", "Linear");
   }
-  return io::encode_by_openimageio(std::string(format.name), image.size, stored, options, facts);
+  return io::encode_by_openimageio(std::string(format.name), size, stored, options, facts);
+}
+
+std::string encoded(const fs::path& path, const WritableFormat& format, const Layers& image,
+                    const WriteOptions& options, WriteFacts& facts) {
+  const bool table = holds_tables(format);
+  const io::StoredPlanes stored = table ? planes_of_table(path, format, image, options)
+                                        : planes_of_picture(path, format, image, options);
+  check_rgbd(path, stored, options.type);
+  return with_context(path.string(), [&] {
+    if (table) return io::encode_table(format.name, path, stored, options, facts);
+    return encoded_picture(format, image.size, stored, options, facts);
+  });
 }
 
 WriteFacts write_openexr_file(const fs::path& path, const Layers& image,
@@ -133,6 +176,10 @@ std::string_view pixel_type_name(PixelType type) {
       return "half";
     case PixelType::Float:
       return "float";
+    case PixelType::Rgb10a2:
+      return "rgb10a2";
+    case PixelType::Rgbd8:
+      return "rgbd8";
   }
   return "float";
 }
@@ -161,11 +208,20 @@ ImageFile read_image(const fs::path& path, const ReadLimits& limits) {
 const std::vector<WritableFormat>& writable_formats() {
   using enum PixelType;
   static const std::vector<WritableFormat> formats{
-      {"openexr", {".exr"}, {Half, Float}, "any channels, by name"},
-      {"hdr", {".hdr"}, {Float}, "R G B, or 1 or 2 channels; no alpha"},
-      {"png", {".png"}, {Uint8, Uint16}, "1 to 4 channels; alpha A after one or three"},
-      {"jpeg", {".jpg", ".jpeg"}, {Uint8}, "R G B, or 1 or 2 channels; no alpha"},
-      {"tiff", {".tif", ".tiff"}, {Uint8, Uint16, Half, Float}, "any number of channels"}};
+      {"openexr", {".exr"}, {Half, Float}, "any channels, by name", true},
+      {"hdr", {".hdr"}, {Float}, "R G B, or 1 or 2 channels; no alpha", true},
+      {"png",
+       {".png"},
+       {Uint8, Rgbd8, Uint16},
+       "1 to 4 channels; alpha A after one or three",
+       true},
+      {"jpeg", {".jpg", ".jpeg"}, {Uint8}, "R G B, or 1 or 2 channels; no alpha", false},
+      {"tiff", {".tif", ".tiff"}, {Uint8, Uint16, Half, Float}, "any number of channels", true},
+      {"dds", {".dds"}, {Half, Uint8, Uint16, Rgb10a2, Rgbd8, Float}, "1 to 4 channels", false},
+      {"ktx2", {".ktx2"}, {Half, Uint8, Uint16, Rgb10a2, Rgbd8, Float}, "1 to 4 channels", true},
+      {"npy", {".npy"}, {Half, Uint8, Uint16, Float}, "any number of channels", false},
+      {"csv", {".csv"}, {Float}, "any channels, by name", true},
+      {"h", {".h"}, {Half, Uint8, Uint16, Float}, "any number of channels", true}};
   return formats;
 }
 
@@ -188,9 +244,7 @@ WriteFacts write_image(const fs::path& path, const Layers& image, const WriteOpt
   check_planes(path, image);
   if (format.name == "openexr") return write_openexr_file(path, image, options);
   WriteFacts facts;
-  const io::StoredPlanes stored = planes_for(path, format, image);
-  publish_text(path, with_context(path.string(),
-                                  [&] { return encoded(format, image, stored, options, facts); }));
+  publish_text(path, encoded(path, format, image, options, facts));
   return facts;
 }
 

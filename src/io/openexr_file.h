@@ -13,7 +13,7 @@ FileFacts inspect_openexr(const std::filesystem::path& path, const ReadLimits& l
 /// The first part, largest level, over its display window. @error Fault::Input, without the path
 ImageFile read_openexr(const std::filesystem::path& path, const ReadLimits& limits);
 
-/// Scan lines, ZIP, channels in the order of their names.
+/// Scan lines, ZIP or not packed, channels in the order of their names.
 /// @param type  Half or Float
 /// @error Fault::Output, naming `shown_path`; Fault::Usage for names that a file cannot hold
 WriteFacts write_openexr(const std::filesystem::path& temporary,

@@ -66,7 +66,8 @@ class RememberingStream : public Imf::OStream {
 
 Imf::Header header_of(const Layers& image, const WriteOptions& options) {
   Imf::Header header(image.size.width, image.size.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() =
+      options.packing == Packing::Fast ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
   const Imf::PixelType type = options.type == PixelType::Half ? Imf::HALF : Imf::FLOAT;
   for (const Layer& layer : image.layers) {
     if (header.channels().findChannel(layer.name) != nullptr || layer.name.empty()) {

@@ -6,6 +6,7 @@
 
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
+#include "stored_planes.h"
 
 namespace kiln::io {
 
@@ -16,12 +17,6 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
 
 /// @error Fault::Input, without the path
 ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits);
-
-/// Planes in the order of the file's channels; nullptr stands for a channel of zeros.
-struct StoredPlanes {
-  std::vector<const Plane*> planes;
-  int alpha_channel = -1;
-};
 
 /// The whole file in memory. @error Fault::Output, without the path
 std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,

@@ -145,6 +145,8 @@ OIIO::TypeDesc library_type(PixelType type) {
     case PixelType::Half:
       return OIIO::TypeHalf;
     case PixelType::Float:
+    case PixelType::Rgb10a2:
+    case PixelType::Rgbd8:
       return OIIO::TypeFloat;
   }
   return OIIO::TypeFloat;

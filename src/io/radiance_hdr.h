@@ -20,8 +20,10 @@ FileFacts inspect_hdr(ByteView bytes, const ReadLimits& limits);
 ImageFile read_hdr(ByteView bytes, const ReadLimits& limits);
 
 /// The image as RGBE, run-length encoded; mantissas rounded to nearest.
-/// One channel is repeated, a missing third is 0.
+/// One channel is repeated, a missing third is 0. Attributes become comments "# name: text", which
+/// read_hdr gives back; line breaks become blanks.
 /// @valid 1 to 3 planes, in the order R G B
-std::string encode_hdr(const std::vector<const Plane*>& planes, WriteFacts& facts);
+std::string encode_hdr(const std::vector<const Plane*>& planes, const Attributes& attributes,
+                       WriteFacts& facts);
 
 }  // namespace kiln::io

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "attribute_lines.h"
 #include "kiln/core/error.h"
 #include "orientation.h"
 #include "radiance_hdr.h"
@@ -23,6 +24,7 @@ struct Header {
   int line_length = 0;  // [texel]
   int orientation = 1;
   size_t pixels_at = 0;
+  Attributes attributes;
   std::vector<std::string> notes;
 };
 
@@ -103,6 +105,9 @@ Header read_header(ByteView bytes, const ReadLimits& limits) {
   Header header;
   Cursor cursor(bytes);
   for (std::string_view line = cursor.line(); !line.empty(); line = cursor.line()) {
+    if (line.starts_with("# ")) {
+      if (auto found = attribute_of(line.substr(2))) header.attributes.push_back(*found);
+    }
     if (line.starts_with("FORMAT=") && line.find("xyze") != std::string_view::npos) {
       refuse("pixels are XYZE, expected RGBE");
     }
@@ -191,6 +196,7 @@ FileFacts facts_of(const Header& header) {
   facts.size = oriented(Size{header.line_length, header.lines}, header.orientation);
   facts.channels = {"R", "G", "B"};
   facts.type = PixelType::Float;
+  facts.attributes = header.attributes;
   facts.notes = header.notes;
   note_orientation(header.orientation, facts);
   return facts;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "attribute_lines.h"
 #include "radiance_hdr.h"
 #include "samples.h"
 
@@ -80,10 +81,12 @@ void append_line(const std::vector<Rgbe>& line, std::string& bytes) {
 
 }  // namespace
 
-std::string encode_hdr(const std::vector<const Plane*>& planes, WriteFacts& facts) {
+std::string encode_hdr(const std::vector<const Plane*>& planes, const Attributes& attributes,
+                       WriteFacts& facts) {
   const Size size = planes.front()->size();
-  std::string bytes =
-      fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", size.height, size.width);
+  std::string bytes = "#?RADIANCE\n";
+  for (const auto& [name, text] : attributes) bytes += comment_line("# ", name, text);
+  bytes += fmt::format("FORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", size.height, size.width);
   std::vector<Rgbe> line(static_cast<size_t>(size.width));
   std::array<float, 3> texel{};
   for (int y = 0; y < size.height; ++y) {

@@ -28,15 +28,8 @@ float loaded(Stored value) {
 }
 
 template <class Stored>
-Stored quantised(float value, WriteFacts& facts) {
-  if (std::isnan(value)) {
-    ++facts.not_a_number;
-    return 0;
-  }
-  const bool inside = value >= 0.0f && value <= 1.0f;
-  if (!inside && std::isfinite(value)) count_clamped(value, facts);
-  constexpr double max = std::numeric_limits<Stored>::max();
-  return static_cast<Stored>(std::lround(std::clamp(static_cast<double>(value), 0.0, 1.0) * max));
+Stored narrowed_to(float value, WriteFacts& facts) {
+  return static_cast<Stored>(quantised(value, std::numeric_limits<Stored>::max(), facts));
 }
 
 half narrowed(float value, WriteFacts& facts) {
@@ -66,6 +59,16 @@ void store_row(std::span<const float> row, size_t step, std::byte* stored, Narro
 
 }  // namespace
 
+uint32_t quantised(float value, uint32_t max, WriteFacts& facts) {
+  if (std::isnan(value)) {
+    ++facts.not_a_number;
+    return 0;
+  }
+  const bool inside = value >= 0.0f && value <= 1.0f;
+  if (!inside && std::isfinite(value)) count_clamped(value, facts);
+  return static_cast<uint32_t>(std::lround(std::clamp(static_cast<double>(value), 0.0, 1.0) * max));
+}
+
 size_t sample_bytes(PixelType type) {
   switch (type) {
     case PixelType::Uint8:
@@ -74,6 +77,8 @@ size_t sample_bytes(PixelType type) {
     case PixelType::Half:
       return 2;
     case PixelType::Float:
+    case PixelType::Rgb10a2:
+    case PixelType::Rgbd8:
       return 4;
   }
   return 4;
@@ -88,14 +93,16 @@ void load_samples(const std::byte* stored, PixelType type, size_t step, std::spa
     case PixelType::Half:
       return load_row<half>(stored, step, row);
     case PixelType::Float:
+    case PixelType::Rgb10a2:
+    case PixelType::Rgbd8:
       return load_row<float>(stored, step, row);
   }
 }
 
 void store_samples(std::span<const float> row, PixelType type, size_t step, std::byte* stored,
                    WriteFacts& facts) {
-  const auto narrow8 = [&](float value) { return quantised<uint8_t>(value, facts); };
-  const auto narrow16 = [&](float value) { return quantised<uint16_t>(value, facts); };
+  const auto narrow8 = [&](float value) { return narrowed_to<uint8_t>(value, facts); };
+  const auto narrow16 = [&](float value) { return narrowed_to<uint16_t>(value, facts); };
   const auto narrow_half = [&](float value) { return narrowed(value, facts); };
   switch (type) {
     case PixelType::Uint8:
@@ -105,6 +112,8 @@ void store_samples(std::span<const float> row, PixelType type, size_t step, std:
     case PixelType::Half:
       return store_row<half>(row, step, stored, narrow_half);
     case PixelType::Float:
+    case PixelType::Rgb10a2:
+    case PixelType::Rgbd8:
       return store_row<float>(row, step, stored, [](float value) { return value; });
   }
 }

@@ -9,10 +9,11 @@
 
 namespace kiln::io {
 
-/// Bytes of one sample.
+/// Bytes of one sample; of a whole texel where samples are no whole bytes (Rgb10a2).
 size_t sample_bytes(PixelType type);
 
 /// Stored sample -> float: integers divided by their largest value (correctly rounded), half exact.
+/// @valid type is none that packs a texel (Rgb10a2, Rgbd8)
 /// @param stored  samples of `type`, the first of the row at the front
 /// @param step    [sample] from one to the next
 void load_samples(const std::byte* stored, PixelType type, size_t step, std::span<float> row);
@@ -21,6 +22,9 @@ void load_samples(const std::byte* stored, PixelType type, size_t step, std::spa
 /// the range are clamped and counted in `facts`, NaN becomes 0 in integers and is counted.
 void store_samples(std::span<const float> row, PixelType type, size_t step, std::byte* stored,
                    WriteFacts& facts);
+
+/// round(v * max), v clamped to [0,1] and counted in `facts`; NaN becomes 0 and is counted.
+uint32_t quantised(float value, uint32_t max, WriteFacts& facts);
 
 /// Notes a clamped value.
 void count_clamped(float value, WriteFacts& facts);

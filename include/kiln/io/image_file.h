@@ -12,8 +12,20 @@
 
 namespace kiln {
 
-enum class PixelType { Uint8, Uint16, Half, Float };
-std::string_view pixel_type_name(PixelType type);  ///< "uint8", "uint16", "half", "float"
+enum class PixelType {
+  Uint8,
+  Uint16,
+  Half,
+  Float,
+  Rgb10a2,  ///< 10 bits each of R, G, B and 2 of A in 32 bits; A is 1 where the image has none
+  /// 8 bits each of R, G, B and a common divisor: value = (c / 255)^2.2 / (a / 255), as Babylon.js
+  /// decodes it. The largest channel decides a: the largest a with value * a / 255 <= 1, since the
+  /// step of a value, 2.2 / 255 (value a / 255)^(1.2/2.2) / (a / 255), shrinks as a grows. Within
+  /// [0,1] a is 255 throughout, so such a file may also be filtered before it is decoded.
+  Rgbd8,
+};
+/// "uint8", "uint16", "half", "float", "rgb10a2", "rgbd8"
+std::string_view pixel_type_name(PixelType type);
 
 /// Metadata "name" -> text.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
@@ -23,12 +35,12 @@ struct FileFacts {
   std::string format;  ///< "openexr", "png", "jpeg", "hdr", "tiff", ...; told by the contents
   Size size;           ///< as returned: the display window, after orientation
   std::vector<std::string> channels;  ///< R G B (or Y), A first; layers keep full names
-  PixelType type = PixelType::Uint8;  ///< the smallest of the four that holds what is stored
+  PixelType type = PixelType::Uint8;  ///< the smallest that holds what is stored; never Rgbd8
   /// As tagged by the file, never trusted for data: a name of the built-in colour configuration,
   /// or "icc: DESCRIPTION". Empty when the file does not say; formats' customs are not a tag.
   std::optional<std::string> color_space_tag;
   bool node_aligned = false;       ///< lat-long with samples on the border
-  Attributes attributes;           ///< text metadata of the file, of EXR, PNG and TIFF
+  Attributes attributes;           ///< text metadata of the file, of EXR, HDR, PNG, TIFF and KTX
   std::vector<std::string> notes;  ///< what had to be decided or repaired while reading
 };
 
@@ -45,12 +57,14 @@ struct ReadLimits {
 /// The header only. @error Fault::Input, message "PATH: what is wrong"
 FileFacts inspect_image(const std::filesystem::path& path);
 
-/// Any image: OpenEXR and Radiance HDR directly, everything else through OpenImageIO, which is
-/// loaded on first use. The contents decide the format, not the extension.
+/// Any image: OpenEXR, Radiance HDR, DDS and KTX that are not block-compressed, and .npy directly,
+/// everything else through OpenImageIO, which is loaded on first use. The contents decide the
+/// format, not the extension.
 ///
 /// The display window is what is returned, with 0 where a file has no data; EXIF and HDR
 /// orientation are applied. NaN and Inf are returned as stored. Of several parts or pages the first
-/// is read, of mip levels the largest. Colour under alpha 0 is kept, since PNG alpha is never
+/// is read, of mip levels the largest, of cubes and arrays the first face; a volume is its slices
+/// from top to bottom. Notes say so. Colour under alpha 0 is kept, since PNG alpha is never
 /// multiplied in. Alpha of OpenEXR files is returned as stored, and a note says so: the format's
 /// custom is premultiplied colour, yet maps whose A is no coverage are common.
 ///
@@ -71,12 +85,33 @@ enum class AlphaStorage {
   Premultiplied,  ///< R, G, B (or Y) times A: the custom of pictures in OpenEXR
 };
 
+/// What OpenEXR files are packed with.
+enum class Packing {
+  Zip,   ///< small: what pictures want
+  Fast,  ///< not packed at all, some ten times faster: tables, whose noise in the last bits stays
+};
+
+/// What the numbers of a table stand for, in formats that are read by people.
+struct Labels {
+  struct Axis {
+    std::string name;
+    std::vector<double> coordinates;  ///< one per column, row or slice
+  };
+  std::vector<Axis> axes;             ///< in the order x, y, z; empty: indices from 0
+  std::vector<std::string> channels;  ///< in the order of the layers; empty: their names
+};
+
 struct WriteOptions {
   PixelType type = PixelType::Half;
-  /// In formats that hold them (EXR, PNG, TIFF).
+  /// In formats that hold them (WritableFormat::holds_attributes).
   Attributes attributes = {};
   ColorTag color_tag = ColorTag::None;
   AlphaStorage alpha = AlphaStorage::Straight;
+  /// Slices of a volume, which stand one below the other in the image. Formats without volumes
+  /// hold the image as it stands.
+  int depth = 1;
+  Labels labels = {};
+  Packing packing = Packing::Zip;
 };
 
 struct WriteFacts {
@@ -91,6 +126,7 @@ struct WritableFormat {
   std::vector<std::string_view> extensions;  ///< lower case, with the dot
   std::vector<PixelType> types;              ///< the first is the format's default
   std::string_view channels;                 ///< what it holds, in words
+  bool holds_attributes = false;             ///< WriteOptions::attributes, whatever their names
 };
 const std::vector<WritableFormat>& writable_formats();
 
@@ -100,18 +136,29 @@ const WritableFormat& writable_format(const std::filesystem::path& path);
 
 /// Publishes an image whole or not at all; bytes depend on nothing but the arguments (no date).
 ///
-/// | extension   | types                         | channels                                     |
-/// |-------------|-------------------------------|----------------------------------------------|
-/// | .exr        | half, float (ZIP)             | any, by name                                 |
-/// | .hdr        | float (as RGBE)               | 1 to 3; one is repeated, a third is 0        |
-/// | .png        | uint8, uint16                 | 1 to 4; two without alpha get a third of 0   |
-/// | .jpg .jpeg  | uint8                         | 1 to 3; as .hdr                              |
-/// | .tif .tiff  | uint8, uint16, half, float    | any                                          |
+/// | extension   | types                                       | channels                       |
+/// |-------------|---------------------------------------------|--------------------------------|
+/// | .exr        | half, float (ZIP or not packed)             | any, by name                   |
+/// | .hdr        | float (as RGBE)                             | 1 to 3; one is repeated, a     |
+/// |             |                                             | third is 0                     |
+/// | .png        | uint8, rgbd8, uint16                        | 1 to 4; two without alpha get  |
+/// |             |                                             | a third of 0                   |
+/// | .jpg .jpeg  | uint8                                       | 1 to 3; as .hdr                |
+/// | .tif .tiff  | uint8, uint16, half, float                  | any                            |
+/// | .dds .ktx2  | half, uint8, uint16, rgb10a2, rgbd8, float  | 1 to 4; three get an alpha of  |
+/// |             |                                             | 1, in float they stay three    |
+/// | .npy        | half, uint8, uint16, float                  | any; [h][w][c], one: [h][w]    |
+/// | .csv        | float (9 digits)                            | any, by name; one entry a line |
+/// | .h          | half, uint8, uint16, float                  | any; NAME[h][w][c] of C or C++ |
+///
+/// .dds, .ktx2, .npy, .csv and .h hold volumes (WriteOptions::depth), with [d] in front. In .h half
+/// and uint16 are the bits as `unsigned short`. rgb10a2 and rgbd8 fill missing colours with 0.
 ///
 /// Where a format has no channel names, R G B A (or Y A) are put in that order and other names are
 /// taken in the order of the layers; only a layer named A is alpha, stored straight.
-/// Integers are round(v * max). In half, uint and RGBE finite values beyond the range are clamped
-/// and counted. RGBE has no negative values, and stores 1 part in 256 of the largest of the three.
+/// Integers are round(v * max). In half, uint, RGBE and rgbd8 finite values beyond the range are
+/// clamped and counted. RGBE has no negative values, and stores 1 part in 256 of the largest of the
+/// three.
 /// @error Fault::Usage for an unknown extension or a type or channels that the format cannot hold,
 ///        Fault::Output when it cannot be written
 WriteFacts write_image(const std::filesystem::path& path, const Layers& image,

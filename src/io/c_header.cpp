@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <string_view>
+
+#include "attribute_lines.h"
+#include "samples.h"
+#include "table_files.h"
+
+namespace kiln::io {
+namespace {
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Words of C and C++ that no variable may be named by; those that hold a '_' are left out.
+constexpr std::string_view keywords[] = {
+    "alignas",  "alignof",  "and",       "asm",       "auto",      "bitand",    "bitor",
+    "bool",     "break",    "case",      "catch",     "char",      "class",     "compl",
+    "concept",  "const",    "consteval", "constexpr", "constinit", "continue",  "decltype",
+    "default",  "delete",   "do",        "double",    "else",      "enum",      "explicit",
+    "export",   "extern",   "false",     "float",     "for",       "friend",    "goto",
+    "if",       "inline",   "int",       "long",      "mutable",   "namespace", "new",
+    "noexcept", "not",      "nullptr",   "operator",  "or",        "private",   "protected",
+    "public",   "register", "requires",  "restrict",  "return",    "short",     "signed",
+    "sizeof",   "static",   "struct",    "switch",    "template",  "this",      "throw",
+    "true",     "try",      "typedef",   "typeid",    "typename",  "typeof",    "union",
+    "unsigned", "using",    "virtual",   "void",      "volatile",  "while",     "xor",
+    "main"};
+
+// Letters and digits with single '_' between, a letter first.
+std::string identifier(std::string_view stem) {
+  std::string name;
+  for (const char c : stem) {
+    if (is_letter(c) || is_digit(c)) {
+      name += c;
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  if (name.empty()) return "table";
+  if (!is_letter(name.front())) name.insert(0, "table_");
+  const bool taken =
+      std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
+  return taken ? "table_" + name : name;
+}
+
+// No comment begins or ends inside the text.
+std::string inside_comment(std::string text) {
+  for (const std::string_view mark : {"*/", "/*"}) {
+    for (size_t at = text.find(mark); at != std::string::npos; at = text.find(mark)) {
+      text.insert(at + 1, 1, ' ');
+    }
+  }
+  return text;
+}
+
+std::string_view meaning(PixelType type) {
+  switch (type) {
+    case PixelType::Uint8:
+      return "value = entry / 255";
+    case PixelType::Uint16:
+      return "value = entry / 65535";
+    case PixelType::Half:
+      return "entries are the bits of IEEE 754 binary16 (half) numbers";
+    default:
+      return "entries are the values";
+  }
+}
+
+std::string_view element(PixelType type) {
+  if (type == PixelType::Uint8) return "unsigned char";
+  return type == PixelType::Float ? "float" : "unsigned short";
+}
+
+// 9 digits give every float back.
+void append_float(float value, std::string& text) {
+  if (std::isnan(value)) {
+    text += "NAN";
+  } else if (std::isinf(value)) {
+    text += value > 0 ? "INFINITY" : "-INFINITY";
+  } else {
+    const size_t from = text.size();
+    fmt::format_to(std::back_inserter(text), "{:.9g}", value);
+    if (text.find_first_of(".e", from) == std::string::npos) text += ".0";
+    text += 'f';
+  }
+}
+
+template <class Integer>
+void append_integer(const char* at, std::string& text) {
+  Integer value;
+  std::memcpy(&value, at, sizeof value);
+  fmt::format_to(std::back_inserter(text), "{}", value);
+}
+
+void append_number(const char* at, PixelType type, std::string& text) {
+  if (type == PixelType::Float) {
+    float value = 0;
+    std::memcpy(&value, at, sizeof value);
+    append_float(value, text);
+  } else if (type == PixelType::Uint8) {
+    append_integer<uint8_t>(at, text);
+  } else {
+    append_integer<uint16_t>(at, text);
+  }
+}
+
+bool has_odd_floats(const std::string& texels) {
+  for (size_t at = 0; at + 4 <= texels.size(); at += 4) {
+    float value = 0;
+    std::memcpy(&value, texels.data() + at, sizeof value);
+    if (!std::isfinite(value)) return true;
+  }
+  return false;
+}
+
+// One row of the table between braces, several texels a line.
+void append_row(const char* at, const Contents& contents, PixelType type, std::string& text) {
+  constexpr size_t numbers_of_line = 8;
+  const auto channels = static_cast<size_t>(contents.channels);
+  const size_t texels_of_line = std::max<size_t>(1, numbers_of_line / channels);
+  const auto width = static_cast<size_t>(contents.slice.width);
+  text += "  {";
+  for (size_t x = 0; x < width; ++x) {
+    if (x > 0) text += x % texels_of_line == 0 ? ",\n   " : ", ";
+    text += '{';
+    for (size_t c = 0; c < channels; ++c, at += sample_bytes(type)) {
+      if (c > 0) text += ", ";
+      append_number(at, type, text);
+    }
+    text += '}';
+  }
+  text += '}';
+}
+
+std::string leading_comment(const std::string& name, const Contents& contents,
+                            const StoredPlanes& stored, const WriteOptions& options) {
+  std::string text = "/*\n";
+  const std::string depth = contents.depth > 1 ? "[z]" : "";
+  text += inside_comment(fmt::format(" * {}{}[y][x][channel], channels {}; {}.\n", name, depth,
+                                     fmt::join(stored.names, ", "), meaning(options.type)));
+  for (const auto& [key, value] : options.attributes) {
+    text += inside_comment(comment_line(" * ", key, value));
+  }
+  return text += " */\n";
+}
+
+}  // namespace
+
+std::string encode_c_header(const std::filesystem::path& path, const Contents& contents,
+                            const StoredPlanes& stored, const WriteOptions& options,
+                            const std::string& texels) {
+  const std::string name = identifier(path.stem().string());
+  std::string guard = name + "_h";
+  std::transform(guard.begin(), guard.end(), guard.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string text = leading_comment(name, contents, stored, options);
+  text += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
+  if (options.type == PixelType::Float && has_odd_floats(texels)) text += "#include <math.h>\n\n";
+  const bool volume = contents.depth > 1;
+  text += fmt::format("static const {} {}", element(options.type), name);
+  if (volume) text += fmt::format("[{}]", contents.depth);
+  text += fmt::format("[{}][{}][{}] = {{\n", contents.slice.height, contents.slice.width,
+                      contents.channels);
+  const int rows = contents.slice.height * contents.depth;
+  const size_t row_bytes = texels.size() / static_cast<size_t>(rows);
+  for (int y = 0; y < rows; ++y) {
+    const int in_slice = y % contents.slice.height;
+    if (volume && in_slice == 0) text += " {\n";
+    append_row(texels.data() + static_cast<size_t>(y) * row_bytes, contents, options.type, text);
+    if (volume && in_slice + 1 == contents.slice.height) text += "}";
+    text += y + 1 < rows ? ",\n" : "\n";
+  }
+  return text += fmt::format("}};\n\n#endif /* {} */\n", guard);
+}
+
+}  // namespace kiln::io

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texel_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "kiln/core/error.h"
+#include "samples.h"
+
+namespace kiln::io {
+namespace {
+
+bool is_packed(Coding coding) {
+  return coding == Coding::Rgb10a2 || coding == Coding::R11g11b10f || coding == Coding::Rgb9e5;
+}
+
+// 5 bits of exponent, bias 15, over `mantissa_bits` of mantissa; no sign.
+float small_float(uint32_t bits, int mantissa_bits) {
+  const uint32_t exponent = bits >> mantissa_bits & 31;
+  const uint32_t mantissa = bits & ((1u << mantissa_bits) - 1);
+  if (exponent == 31) return mantissa == 0 ? INFINITY : NAN;
+  const auto value = static_cast<float>(mantissa);
+  if (exponent == 0) return std::ldexp(value, -14 - mantissa_bits);
+  return std::ldexp(value + static_cast<float>(1u << mantissa_bits),
+                    static_cast<int>(exponent) - 15 - mantissa_bits);
+}
+
+std::array<float, 4> unpacked(uint32_t bits, Coding coding) {
+  if (coding == Coding::R11g11b10f) {
+    return {small_float(bits & 2047, 6), small_float(bits >> 11 & 2047, 6),
+            small_float(bits >> 22, 5), 1.0f};
+  }
+  std::array<float, 4> texel{};
+  if (coding == Coding::Rgb9e5) {
+    const int exponent = static_cast<int>(bits >> 27) - 24;  // bias 15, 9 bits of mantissa
+    for (size_t c = 0; c < 3; ++c) {
+      texel[c] = std::ldexp(static_cast<float>(bits >> (9 * c) & 511), exponent);
+    }
+    return texel;
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    texel[c] = static_cast<float>(bits >> (10 * c) & 1023) / 1023.0f;
+  }
+  texel[3] = static_cast<float>(bits >> 30) / 3.0f;
+  return texel;
+}
+
+// The plane of each channel of memory, nullptr for X, in the order of kiln's images.
+std::vector<std::string> channel_names(const TexelFormat& format) {
+  std::vector<std::string> names;
+  for (const char c : format.channels) {
+    if (c != 'X') names.emplace_back(1, c);
+  }
+  std::stable_sort(names.begin(), names.end(),
+                   [](const auto& a, const auto& b) { return channel_rank(a) < channel_rank(b); });
+  return names;
+}
+
+std::vector<Plane*> planes_in_memory_order(const TexelFormat& format, Layers& image) {
+  std::vector<Plane*> planes;
+  for (const char c : format.channels) {
+    const auto at = std::find_if(image.layers.begin(), image.layers.end(),
+                                 [c](const Layer& layer) { return layer.name[0] == c; });
+    planes.push_back(at == image.layers.end() ? nullptr : &at->plane);
+  }
+  return planes;
+}
+
+void swap_samples(std::vector<std::byte>& row, size_t sample) {
+  for (size_t i = 0; i + sample <= row.size(); i += sample) {
+    std::reverse(row.begin() + static_cast<std::ptrdiff_t>(i),
+                 row.begin() + static_cast<std::ptrdiff_t>(i + sample));
+  }
+}
+
+void place_row(const std::vector<std::byte>& row, const TexelFormat& format, int y,
+               const std::vector<Plane*>& planes) {
+  const size_t width = row.size() / texel_bytes(format);
+  if (!is_packed(format.coding)) {
+    const PixelType type = held_as(format.coding);
+    for (size_t c = 0; c < planes.size(); ++c) {
+      if (planes[c] == nullptr) continue;
+      load_samples(row.data() + c * sample_bytes(type), type, planes.size(),
+                   {planes[c]->row(y), width});
+    }
+    return;
+  }
+  for (size_t x = 0; x < width; ++x) {
+    uint32_t bits = 0;
+    std::memcpy(&bits, row.data() + 4 * x, sizeof bits);
+    const std::array<float, 4> texel = unpacked(bits, format.coding);
+    for (size_t c = 0; c < planes.size(); ++c) {
+      if (planes[c] != nullptr) planes[c]->row(y)[x] = texel[c];
+    }
+  }
+}
+
+// @error when the texels do not lie within the bytes
+void check_bytes(const StoredTexels& stored, ByteView bytes) {
+  const auto rows = static_cast<unsigned long long>(stored.height * stored.depth);
+  const unsigned long long row_bytes =
+      static_cast<unsigned long long>(stored.width) * texel_bytes(stored.texel);
+  const size_t left = bytes.size() - std::min(stored.first, bytes.size());
+  if (stored.row_pitch < row_bytes || left < row_bytes ||
+      (rows - 1) > (left - row_bytes) / stored.row_pitch) {
+    throw Error(
+        Fault::Input,
+        fmt::format("truncated: the header claims {} x {} x {} texels of {} bytes, {} "
+                    "bytes follow",
+                    stored.width, stored.height, stored.depth, texel_bytes(stored.texel), left));
+  }
+}
+
+}  // namespace
+
+size_t texel_bytes(const TexelFormat& format) {
+  return is_packed(format.coding) ? 4
+                                  : format.channels.size() * sample_bytes(held_as(format.coding));
+}
+
+PixelType held_as(Coding coding) {
+  switch (coding) {
+    case Coding::Unorm8:
+      return PixelType::Uint8;
+    case Coding::Unorm16:
+      return PixelType::Uint16;
+    case Coding::Half:
+    case Coding::R11g11b10f:
+      return PixelType::Half;
+    case Coding::Rgb10a2:
+      return PixelType::Rgb10a2;
+    case Coding::Float:
+    case Coding::Rgb9e5:
+      return PixelType::Float;
+  }
+  return PixelType::Float;
+}
+
+FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  const std::vector<std::string> names = channel_names(stored.texel);
+  if (stored.depth < 1 || stored.depth > limits.max_texels ||
+      stored.height > limits.max_texels / stored.depth) {
+    throw Error(Fault::Input,
+                fmt::format("the header claims {} x {} x {} texels; more than {} are "
+                            "not read",
+                            stored.width, stored.height, stored.depth, limits.max_texels));
+  }
+  require_within(limits, stored.width, stored.height * stored.depth,
+                 static_cast<long long>(names.size()));
+  check_bytes(stored, bytes);
+  FileFacts facts;
+  facts.format = stored.format;
+  facts.size = {static_cast<int>(stored.width), static_cast<int>(stored.height * stored.depth)};
+  facts.channels = names;
+  facts.type = held_as(stored.texel.coding);
+  if (stored.texel.srgb) facts.color_space_tag = "srgb_rec709_scene";
+  facts.attributes = stored.attributes;
+  facts.notes = stored.notes;
+  if (stored.depth > 1) {
+    facts.notes.push_back(
+        fmt::format("a volume: {} slices of {} x {} texels stand one below the other", stored.depth,
+                    stored.width, stored.height));
+  }
+  return facts;
+}
+
+Volume read_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  Volume volume;
+  volume.depth = static_cast<int>(stored.depth);
+  volume.file.facts = facts_of_texels(stored, bytes, limits);
+  volume.file.image = make_layers(volume.file.facts.size, volume.file.facts.channels);
+  const std::vector<Plane*> planes = planes_in_memory_order(stored.texel, volume.file.image);
+  const auto height = static_cast<int>(stored.height);
+  const size_t sample =
+      is_packed(stored.texel.coding) ? 4 : sample_bytes(held_as(stored.texel.coding));
+  std::vector<std::byte> row(static_cast<size_t>(stored.width) * texel_bytes(stored.texel));
+  for (int y = 0; y < volume.file.facts.size.height; ++y) {
+    const size_t at = stored.first + static_cast<size_t>(y) * stored.row_pitch;
+    std::memcpy(row.data(), bytes.data() + at, row.size());
+    if (stored.big_endian) swap_samples(row, sample);
+    const int in_slice = y % height;
+    const int to = stored.rows_from_below ? y - in_slice + height - 1 - in_slice : y;
+    place_row(row, stored.texel, to, planes);
+  }
+  return volume;
+}
+
+}  // namespace kiln::io
