@@ -13,6 +13,7 @@
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
 #include "kiln/store/publish.h"
+#include "npy_read.h"
 #include "openexr_file.h"
 #include "openimageio_file.h"
 #include "radiance_hdr.h"
@@ -20,6 +21,8 @@
 #include "signature.h"
 #include "table_files.h"
 #include "texel_pack.h"
+#include "texture_files.h"
+#include "volume_file.h"
 
 namespace kiln {
 namespace {
@@ -28,6 +31,14 @@ namespace fs = std::filesystem;
 
 std::string format_of(const fs::path& path) {
   return io::format_by_contents(path, io::first_bytes(path, io::signature_length));
+}
+
+// Where the texels of a texture container lie; nothing where OpenImageIO is to read the file.
+std::optional<io::StoredTexels> texels_of(const std::string& format, io::ByteView bytes) {
+  if (format == "dds") return io::dds_texels(bytes);
+  if (format == "ktx") return io::ktx1_texels(bytes);
+  if (format == "ktx2") return io::ktx2_texels(bytes);
+  return std::nullopt;
 }
 
 void check_type(const fs::path& path, const WritableFormat& format, PixelType type) {
@@ -191,18 +202,27 @@ FileFacts inspect_image(const fs::path& path) {
     if (format == "openexr") return io::inspect_openexr(path, limits);
     const io::Bytes bytes = io::all_bytes(path);
     if (format == "hdr") return io::inspect_hdr(bytes, limits);
+    if (format == "npy") return io::inspect_npy(bytes, limits);
+    if (const auto texels = texels_of(format, bytes)) {
+      return io::facts_of_texels(*texels, bytes, limits);
+    }
     return io::inspect_by_openimageio(format, bytes, limits);
   });
 }
 
 ImageFile read_image(const fs::path& path, const ReadLimits& limits) {
   const std::string format = format_of(path);
-  return with_context(path.string(), [&] {
-    if (format == "openexr") return io::read_openexr(path, limits);
-    const io::Bytes bytes = io::all_bytes(path);
-    if (format == "hdr") return io::read_hdr(bytes, limits);
-    return io::read_by_openimageio(format, bytes, limits);
-  });
+  return with_context(path.string(), [&] { return io::read_volume(path, format, limits).file; });
+}
+
+io::Volume io::read_volume(const fs::path& path, const std::string& format,
+                           const ReadLimits& limits) {
+  if (format == "openexr") return {read_openexr(path, limits)};
+  const Bytes bytes = all_bytes(path);
+  if (format == "hdr") return {read_hdr(bytes, limits)};
+  if (format == "npy") return read_npy_image(bytes, limits);
+  if (const auto texels = texels_of(format, bytes)) return read_texels(*texels, bytes, limits);
+  return {read_by_openimageio(format, bytes, limits)};
 }
 
 const std::vector<WritableFormat>& writable_formats() {

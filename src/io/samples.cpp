@@ -147,4 +147,13 @@ int channel_rank(std::string_view name) {
   return static_cast<int>(std::min(at, first.size()));
 }
 
+std::vector<std::string> usual_channel_names(int count) {
+  if (count == 1) return {"Y"};
+  std::vector<std::string> names;
+  for (int c = 0; c < count; ++c) {
+    names.push_back(count <= 4 ? std::string(1, "RGBA"[c]) : fmt::format("channel{}", c));
+  }
+  return names;
+}
+
 }  // namespace kiln::io

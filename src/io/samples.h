@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "kiln/io/image_file.h"
 
@@ -35,5 +37,8 @@ void require_within(const ReadLimits& limits, long long width, long long height,
 
 /// Where a channel stands in Layers: R G B (or Y), then A, then all others as they came.
 int channel_rank(std::string_view name);
+
+/// Y; R G; R G B; R G B A; beyond that channel0, channel1, ...
+std::vector<std::string> usual_channel_names(int count);
 
 }  // namespace kiln::io

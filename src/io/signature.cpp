@@ -32,6 +32,9 @@ constexpr std::array signatures{Signature{"openexr", "\x76\x2f\x31\x01"sv},
                                 Signature{"gif", "GIF8"sv},
                                 Signature{"psd", "8BPS"sv},
                                 Signature{"dds", "DDS "sv},
+                                Signature{"ktx", "\xabKTX 11\xbb\r\n\x1a\n"sv},
+                                Signature{"ktx2", "\xabKTX 20\xbb\r\n\x1a\n"sv},
+                                Signature{"npy", "\x93NUMPY"sv},
                                 Signature{"dpx", "SDPX"sv},
                                 Signature{"dpx", "XPDS"sv},
                                 Signature{"pnm", "P1"sv},
@@ -57,13 +60,18 @@ std::string shown(ByteView first) {
 
 }  // namespace
 
-std::string format_by_contents(const std::filesystem::path& path, ByteView first) {
+std::optional<std::string> known_format(const std::filesystem::path& path, ByteView first) {
   const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
   for (const Signature& signature : signatures) {
     if (text.starts_with(signature.bytes)) return std::string(signature.format);
   }
   if (is_webp(text)) return "webp";
   if (kebab(path.extension().string()) == ".tga") return "targa";
+  return std::nullopt;
+}
+
+std::string format_by_contents(const std::filesystem::path& path, ByteView first) {
+  if (auto format = known_format(path, first)) return *format;
   throw Error(
       Fault::Input,
       fmt::format("{}: not an image of a known format (it begins with {}; expected OpenEXR, "

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "texel_format.h"
+
+namespace kiln::io {
+
+/// read_image of a file whose contents are of this format, with the number of its slices.
+/// @error Fault::Input, without the path
+Volume read_volume(const std::filesystem::path& path, const std::string& format,
+                   const ReadLimits& limits);
+
+}  // namespace kiln::io
