@@ -52,9 +52,9 @@ std::string identifier(std::string_view stem) {
   return taken ? "table_" + name : name;
 }
 
-// No comment begins or ends inside the text.
+// No comment begins or ends inside the text, nor a trigraph.
 std::string inside_comment(std::string text) {
-  for (const std::string_view mark : {"*/", "/*"}) {
+  for (const std::string_view mark : {"*/", "/*", "?\?/"}) {
     for (size_t at = text.find(mark); at != std::string::npos; at = text.find(mark)) {
       text.insert(at + 1, 1, ' ');
     }

@@ -16,6 +16,7 @@
 #include "openimageio_loader.h"
 #include "orientation.h"
 #include "samples.h"
+#include "tiff_description.h"
 
 namespace kiln::io {
 namespace {
@@ -94,6 +95,7 @@ FileFacts facts_of(const std::string& format, ByteView bytes, const Opened& open
   facts.color_space_tag = color_tag(format, bytes, all);
   std::copy_if(all.begin(), all.end(), std::back_inserter(facts.attributes),
                [](const auto& attribute) { return is_of_the_file(attribute.first); });
+  if (format == "tiff") facts.attributes = from_tiff_tags(facts.attributes);
   note_orientation(stored.orientation, facts);
   return facts;
 }
@@ -216,7 +218,9 @@ ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const R
 std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,
                                   const WriteOptions& options, WriteFacts& facts) {
   const module::Face& face = openimageio();
-  const std::vector<module::Attribute> texts = texts_of(options.attributes);
+  const Attributes attributes =
+      format == "tiff" ? as_tiff_tags(options.attributes) : options.attributes;
+  const std::vector<module::Attribute> texts = texts_of(attributes);
   const module::WrittenImage image = described(format, size, stored, options.type, texts);
   const std::unique_ptr<module::Writer, void (*)(module::Writer*)> writer(face.create(&image),
                                                                           face.drop);

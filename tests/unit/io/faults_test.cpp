@@ -69,7 +69,7 @@ TEST_F(ReadFault, NamesTheFileOnceAndTheFormat) {
 }
 
 TEST_F(ReadFault, RefusesMoreTexelsThanTheLimitsAllow) {
-  for (const WritableFormat& format : writable_formats()) {
+  for (const WritableFormat& format : picture_formats()) {
     const fs::path path = folder / named("a", format);
     write_image(path, pattern({20, 10}, {"R", "G", "B"}), {.type = format.types.front()});
     EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(path, {.max_texels = 199}); }),
@@ -102,10 +102,10 @@ TEST_F(WriteFault, TakesExtensionsInAnyCase) {
 TEST_F(WriteFault, NamesTheTypesThatAFormatHolds) {
   EXPECT_THAT(fault_text(Fault::Usage,
                          [&] { write_image(folder / "a.png", image, {.type = PixelType::Half}); }),
-              HasSubstr("a.png: png cannot hold half; it holds uint8, uint16"));
+              HasSubstr("a.png: png cannot hold half; it holds uint8, rgbd8, uint16"));
   for (const WritableFormat& format : writable_formats()) {
-    for (const PixelType type :
-         {PixelType::Uint8, PixelType::Uint16, PixelType::Half, PixelType::Float}) {
+    for (const PixelType type : {PixelType::Uint8, PixelType::Uint16, PixelType::Half,
+                                 PixelType::Float, PixelType::Rgb10a2, PixelType::Rgbd8}) {
       const fs::path path = folder / named("a", format);
       const bool held =
           std::find(format.types.begin(), format.types.end(), type) != format.types.end();

@@ -47,6 +47,22 @@ inline std::string named(std::string stem, const WritableFormat& format) {
   return stem.append(format.extensions.front());
 }
 
+/// The formats that keep names or colour, and that nothing but an image is read from.
+inline std::vector<WritableFormat> picture_formats() {
+  std::vector<WritableFormat> formats;
+  for (const WritableFormat& format : writable_formats()) {
+    if (format.name == "dds") break;
+    formats.push_back(format);
+  }
+  return formats;
+}
+
+/// The formats of tables, which come after the pictures in the list.
+inline std::vector<WritableFormat> table_formats() {
+  return {writable_formats().begin() + static_cast<std::ptrdiff_t>(picture_formats().size()),
+          writable_formats().end()};
+}
+
 /// Planes of a fixed pattern in [0,1], no two alike.
 inline Layers pattern(Size size, const std::vector<std::string>& names) {
   Layers image = make_layers(size, names);

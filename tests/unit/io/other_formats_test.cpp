@@ -132,6 +132,7 @@ class ByContents : public ImageFolder {};
 TEST_F(ByContents, ReadsAFileUnderAnyName) {
   const Layers image = pattern({8, 8}, {"R", "G", "B"});
   for (const WritableFormat& format : writable_formats()) {
+    if (format.name == "csv" || format.name == "h") continue;  // no images
     write_image(folder / named("a", format), image, {.type = format.types.front()});
     fs::rename(folder / named("a", format), folder / "a.picture");
     EXPECT_EQ(read_image(folder / "a.picture").facts.format, format.name);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "image_folder.h"
+#include "kiln/io/number_arrays.h"
 
 namespace kiln {
 namespace {
@@ -41,7 +42,7 @@ double tolerance(const WritableFormat& format, PixelType type) {
       return 0.5001 / 65535;
     case PixelType::Half:
       return 0.0003;
-    case PixelType::Float:
+    default:
       return 0;
   }
   return 0;
@@ -50,8 +51,9 @@ double tolerance(const WritableFormat& format, PixelType type) {
 class RoundTrip : public ImageFolder {};
 
 TEST_F(RoundTrip, KeepsValuesAndNamesInEveryFormatTypeAndNumberOfChannels) {
-  for (const WritableFormat& format : writable_formats()) {
+  for (const WritableFormat& format : picture_formats()) {
     for (const PixelType type : format.types) {
+      if (type == PixelType::Rgbd8) continue;  // see the tests of tables
       for (const auto& names : color_names) {
         if (!holds(format, names)) continue;
         const std::string file = named("x", format);
@@ -89,7 +91,8 @@ TEST_F(RoundTrip, WritesTheSameBytesTwiceInEveryFormatAndType) {
     for (const PixelType type : format.types) {
       const Layers image = pattern({65, 33}, {"R", "G", "B"});
       const WriteOptions options{.type = type, .attributes = {{"model", "ggx"}}};
-      const fs::path first = folder / named("a", format), second = folder / named("b", format);
+      const fs::path first = folder / named("a", format),
+                     second = folder / "b" / named("a", format);
       write_image(first, image, options);
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       write_image(second, image, options);
@@ -103,26 +106,33 @@ TEST_F(RoundTrip, CarriesNoDateAndNoClock) {
     const std::string file = named("a", format);
     write_image(folder / file, pattern({8, 8}, {"R", "G", "B"}), {.type = format.types.front()});
     const std::string bytes = bytes_of(folder / file);
-    for (const char* sign : {"capDate", "tIME", "202"}) {
+    for (const char* sign : {"capDate", "tIME", "2026"}) {
       EXPECT_EQ(bytes.find(sign), std::string::npos) << file << " holds " << sign;
     }
   }
 }
 
 TEST_F(RoundTrip, KeepsTextMetadataWhereTheFormatHoldsIt) {
-  for (const char* file : {"a.exr", "a.png", "a.tif"}) {
-    const PixelType type = writable_format(file).types.front();
-    write_image(folder / file, pattern({8, 8}, {"R", "G", "B"}),
-                {.type = type, .attributes = {{"ImageDescription", "table of E, mu x roughness"}}});
-    const FileFacts facts = inspect_image(folder / file);
-    const std::pair<std::string, std::string> wanted{"ImageDescription",
-                                                     "table of E, mu x roughness"};
-    EXPECT_THAT(facts.attributes, testing::Contains(wanted)) << file;
+  const Attributes attributes{{"ImageDescription", "table of E, mu x roughness"},
+                              {"kiln:axes", "mu, roughness"},
+                              {"max_error", "1e-07"}};
+  for (const WritableFormat& format : writable_formats()) {
+    const fs::path path = folder / named("a", format);
+    write_image(path, pattern({8, 8}, {"R", "G", "B"}),
+                {.type = format.types.back(), .attributes = attributes});
+    const Attributes found = read_arrays(path).front().attributes;
+    for (const auto& attribute : attributes) {
+      if (format.holds_attributes) {
+        EXPECT_THAT(found, testing::Contains(attribute)) << format.name;
+      } else {
+        EXPECT_THAT(found, testing::Not(testing::Contains(attribute))) << format.name;
+      }
+    }
   }
 }
 
 TEST_F(RoundTrip, InspectsWhatReadingReturns) {
-  for (const WritableFormat& format : writable_formats()) {
+  for (const WritableFormat& format : picture_formats()) {
     const std::string file = named("a", format);
     write_image(folder / file, pattern({19, 5}, {"R", "G", "B"}), {.type = format.types.front()});
     const FileFacts header = inspect_image(folder / file);
@@ -187,7 +197,7 @@ TEST_F(RoundTrip, WorksFromManyThreadsAtOnce) {
   std::vector<std::jthread> threads;
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&, t] {
-      for (const WritableFormat& format : writable_formats()) {
+      for (const WritableFormat& format : picture_formats()) {
         const fs::path path = folder / named(std::to_string(t), format);
         write_image(path, pattern({40, 40}, {"R", "G", "B"}), {.type = format.types.front()});
         EXPECT_EQ(read_image(path).image.size, (Size{40, 40}));
