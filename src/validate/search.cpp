@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace kiln::validate {
+namespace {
+
+constexpr int coarse_entries = 12, fine_entries = 16;
+constexpr size_t kept_per_sheet = 16;
+
+// Curves hold averages over directions, tables the integrals themselves.
+Integrals integrals_for(const Sheet& sheet, const Lobe& lobe, std::vector<double> mus,
+                        std::vector<double> alphas) {
+  return sheet.is_curve() ? Integrals::averages(lobe, std::move(alphas))
+                          : Integrals(lobe, std::move(mus), std::move(alphas));
+}
+
+// Curves have one axis.
+bool fits_shape(const Sheet& sheet, const TableAxes& axes) {
+  return !sheet.is_curve() ||
+         (axes.transposed && axes.cosine == CosineAxis::Cosine && !axes.cosine_reversed);
+}
+
+// Integrals of all lobes at the places of all coarse axes, for tables of some size.
+using AllIntegrals = std::vector<Integrals>;
+
+AllIntegrals coarse_integrals(const Sheet& sheet, bool transposed, const Places& places) {
+  std::vector<double> mus, alphas;
+  for (TableAxes axes : all_axes()) {
+    if (axes.transposed != transposed || !fits_shape(sheet, axes)) continue;
+    for (const Placement& alignment : {centres, nodes}) {
+      axes.cosine_alignment = axes.width_alignment = alignment;
+      const auto m = cosines_of(sheet, axes, places), a = alphas_of(sheet, axes, places);
+      mus.insert(mus.end(), m.begin(), m.end());
+      alphas.insert(alphas.end(), a.begin(), a.end());
+    }
+  }
+  AllIntegrals all;
+  all.reserve(all_models().size());
+  for (const Model& model : all_models()) {
+    all.push_back(integrals_for(sheet, model.lobe, mus, alphas));
+  }
+  return all;
+}
+
+class CoarseIntegrals {
+ public:
+  const AllIntegrals& of(const Sheet& sheet, bool transposed, const Places& places) {
+    Size size = sheet.size();
+    if (transposed) std::swap(size.width, size.height);
+    auto found = made_.find(size);
+    if (found == made_.end()) {
+      found = made_.emplace(size, coarse_integrals(sheet, transposed, places)).first;
+    }
+    return found->second;
+  }
+
+ private:
+  std::map<Size, AllIntegrals> made_;
+};
+
+// The best candidate of each class so far.
+class Ranking {
+ public:
+  void add(Candidate candidate) {
+    const std::string key = class_of(candidate);
+    const auto found = best_.find(key);
+    if (found == best_.end()) {
+      best_.emplace(key, std::move(candidate));
+    } else if (handicapped(candidate) < handicapped(found->second)) {
+      found->second = std::move(candidate);
+    }
+  }
+
+  std::vector<Candidate> first(size_t most) const {
+    std::vector<Candidate> ranked;
+    ranked.reserve(best_.size());
+    for (const auto& [key, candidate] : best_) ranked.push_back(candidate);
+    std::stable_sort(ranked.begin(), ranked.end(), [](const Candidate& a, const Candidate& b) {
+      return handicapped(a) < handicapped(b);
+    });
+    if (ranked.size() > most) ranked.resize(most);
+    return ranked;
+  }
+
+ private:
+  std::map<std::string, Candidate> best_;
+};
+
+// All lobes under these axes.
+void fit_lobes(int sheet, const TableAxes& axes, const Reading& reading, const AllIntegrals& all,
+               Ranking& ranking) {
+  std::vector<ChannelFit> shared = constant_channels(reading.values);
+  if (reading.mus.size() > 1) improve_fits(reading, -1, {}, meanings_of_diffuse(), shared);
+  for (size_t k = 0; k < all.size(); ++k) {
+    if (!all_models()[k].sheen) continue;
+    improve_fits(reading, static_cast<int>(k), all[k].at(reading.mus, reading.alphas),
+                 meanings_of_sheen(), shared);
+  }
+  for (size_t k = 0; k < all.size(); ++k) {
+    if (all_models()[k].sheen) continue;
+    const int model = static_cast<int>(k);
+    std::vector<ChannelFit> fits = shared;
+    improve_fits(reading, model, all[k].at(reading.mus, reading.alphas), meanings_of_specular(),
+                 fits);
+    const double score = score_of(fits);
+    ranking.add({sheet, axes, model, std::move(fits), score});
+  }
+}
+
+bool varies(const Values& values) {
+  const std::vector<ChannelFit> fits = constant_channels(values);
+  return std::any_of(fits.begin(), fits.end(), [](const ChannelFit& fit) { return !fit.constant; });
+}
+
+void search_sheet(const Sheet& sheet, int index, CoarseIntegrals& integrals, Ranking& ranking) {
+  for (const bool transposed : {false, true}) {
+    if (sheet.is_curve() && !transposed) continue;
+    const Places places = spread_places(sheet, transposed, coarse_entries);
+    Reading reading{values_of(sheet, transposed, places), {}, {}};
+    if (!varies(reading.values)) return;
+    const AllIntegrals& all = integrals.of(sheet, transposed, places);
+    for (TableAxes axes : all_axes()) {
+      if (axes.transposed != transposed || !fits_shape(sheet, axes)) continue;
+      for (const Placement& alignment : {centres, nodes}) {
+        axes.cosine_alignment = axes.width_alignment = alignment;
+        reading.mus = cosines_of(sheet, axes, places);
+        reading.alphas = alphas_of(sheet, axes, places);
+        fit_lobes(index, axes, reading, all, ranking);
+      }
+    }
+  }
+}
+
+// Models that the channels are of.
+std::set<int> models_of(const Candidate& candidate) {
+  std::set<int> used;
+  for (const ChannelFit& fit : candidate.fits) {
+    if (fit.model >= 0 && !fit.constant) used.insert(fit.model);
+  }
+  return used;
+}
+
+// The same meanings at other places: fits with their errors there.
+std::vector<ChannelFit> refit(const Reading& reading, const std::map<int, Integrals>& integrals,
+                              const Candidate& candidate) {
+  std::vector<ChannelFit> fits = candidate.fits;
+  std::map<int, Grid> grids;
+  grids[-1] = {};
+  for (const auto& [model, made] : integrals) grids[model] = made.at(reading.mus, reading.alphas);
+  for (size_t c = 0; c < fits.size(); ++c) {
+    if (fits[c].constant) continue;
+    std::vector<ChannelFit> one(1);
+    const Reading channel{{reading.values[c]}, reading.mus, reading.alphas};
+    improve_fits(channel, fits[c].model, grids[fits[c].model], {&fits[c].meaning, 1}, one);
+    fits[c] = one[0];
+  }
+  return fits;
+}
+
+std::vector<TableAxes> with_alignments(const TableAxes& axes, bool of_cosines) {
+  std::vector<TableAxes> all;
+  for (const Placement& alignment : all_alignments()) {
+    all.push_back(axes);
+    (of_cosines ? all.back().cosine_alignment : all.back().width_alignment) = alignment;
+  }
+  return all;
+}
+
+Candidate best_alignment(const Sheet& sheet, const Candidate& candidate, const Places& places,
+                         Reading& reading, bool of_cosines) {
+  const std::vector<TableAxes> tried = with_alignments(candidate.axes, of_cosines);
+  std::vector<double> mus, alphas;
+  for (const TableAxes& axes : tried) {
+    const auto m = cosines_of(sheet, axes, places), a = alphas_of(sheet, axes, places);
+    mus.insert(mus.end(), m.begin(), m.end());
+    alphas.insert(alphas.end(), a.begin(), a.end());
+  }
+  std::map<int, Integrals> integrals;
+  for (const int k : models_of(candidate)) {
+    integrals.emplace(k, integrals_for(sheet, all_models()[k].lobe, mus, alphas));
+  }
+  Candidate best = candidate;
+  best.score = 1e9;
+  for (const TableAxes& axes : tried) {
+    reading.mus = cosines_of(sheet, axes, places);
+    reading.alphas = alphas_of(sheet, axes, places);
+    Candidate one = candidate;
+    one.axes = axes;
+    one.fits = refit(reading, integrals, candidate);
+    one.score = score_of(one.fits);
+    if (handicapped(one) < handicapped(best)) best = std::move(one);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string class_of(const Candidate& candidate) {
+  const TableAxes& axes = candidate.axes;
+  std::string key =
+      fmt::format("{} {}{}{} {} {}", candidate.sheet, axes.transposed, axes.cosine_reversed,
+                  axes.width_reversed, static_cast<int>(axes.cosine), static_cast<int>(axes.width));
+  for (const ChannelFit& fit : candidate.fits) {
+    key += fit.constant ? " -" : fmt::format(" {}.{}", fit.model, static_cast<int>(fit.meaning));
+  }
+  return key;
+}
+
+double handicapped(const Candidate& candidate) {
+  const TableAxes& axes = candidate.axes;
+  int oddness = 0;
+  if (!plain(axes.cosine_alignment)) ++oddness;
+  if (!plain(axes.width_alignment)) ++oddness;
+  if (axes.cosine_alignment != axes.width_alignment) ++oddness;
+  if (axes.width == WidthAxis::FourthRoot) ++oddness;
+  double least = candidate.score;
+  for (const ChannelFit& fit : candidate.fits) {
+    if (!fit.constant) least = std::min(least, fit.rms);
+  }
+  return candidate.score + oddness * (0.01 * least + 1e-9);
+}
+
+Candidate align(const Sheet& sheet, const Candidate& candidate, int entries) {
+  const Places places = spread_places(sheet, candidate.axes.transposed, entries);
+  Reading reading{values_of(sheet, candidate.axes.transposed, places), {}, {}};
+  Candidate best = candidate;
+  for (int pass = 0; pass < 2; ++pass) {
+    const TableAxes before = best.axes;
+    best = best_alignment(sheet, best, places, reading, false);
+    if (!sheet.is_curve()) best = best_alignment(sheet, best, places, reading, true);
+    if (best.axes == before) break;
+  }
+  return best;
+}
+
+std::vector<Candidate> search(const std::vector<Sheet>& sheets, size_t most) {
+  CoarseIntegrals integrals;
+  Ranking refined;
+  for (size_t i = 0; i < sheets.size(); ++i) {
+    Ranking coarse;
+    search_sheet(sheets[i], static_cast<int>(i), integrals, coarse);
+    const std::vector<Candidate> kept = coarse.first(kept_per_sheet);
+    for (size_t k = 0; k < kept.size(); ++k) {
+      if (k >= 4 && kept[k].score > 3 * kept[0].score + 0.01) break;
+      refined.add(align(sheets[i], kept[k], fine_entries));
+    }
+  }
+  return refined.first(most);
+}
+
+Comparison compare(const Sheet& sheet, const Candidate& candidate, int most) {
+  Comparison result;
+  result.places = spread_places(sheet, candidate.axes.transposed, most);
+  Reading& reading = result.reading;
+  reading.values = values_of(sheet, candidate.axes.transposed, result.places);
+  reading.mus = cosines_of(sheet, candidate.axes, result.places);
+  reading.alphas = alphas_of(sheet, candidate.axes, result.places);
+  std::map<int, Grid> grids;
+  grids[-1] = {};
+  for (const int k : models_of(candidate)) {
+    grids[k] = integrals_for(sheet, all_models()[k].lobe, reading.mus, reading.alphas)
+                   .at(reading.mus, reading.alphas);
+  }
+  result.fits = candidate.fits;
+  for (size_t c = 0; c < result.fits.size(); ++c) {
+    ChannelFit& fit = result.fits[c];
+    result.exact.push_back(
+        exact_entries(fit, reading, static_cast<int>(c), grids[fit.constant ? -1 : fit.model]));
+    double sum = 0;
+    for (size_t i = 0; i < result.exact[c].size(); ++i) {
+      const double error = reading.values[c][i] - result.exact[c][i];
+      sum += error * error;
+    }
+    fit.rms = std::sqrt(sum / static_cast<double>(result.exact[c].size()));
+  }
+  return result;
+}
+
+}  // namespace kiln::validate

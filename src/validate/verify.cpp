@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/validate/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "judge.h"
+#include "presets.h"
+#include "statements.h"
+
+namespace kiln {
+namespace validate {
+namespace {
+
+constexpr size_t classes_kept = 12;
+constexpr int entries_measured = 512, entries_aligned = 32;
+
+// A finer look at the few that are left, for noise hides small shifts from a coarse one.
+void look_closer(const std::vector<Sheet>& sheets, std::vector<Candidate>& candidates) {
+  const double worth = 1.5 * candidates[0].score + 1e-6;
+  for (size_t i = 0; i < std::min<size_t>(candidates.size(), 4); ++i) {
+    Candidate& one = candidates[i];
+    if (one.score <= worth) one = align(sheets[one.sheet], one, entries_aligned);
+  }
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const Candidate& a, const Candidate& b) { return handicapped(a) < handicapped(b); });
+}
+
+// Of the other classes the one whose errors are least in the channels that the best one explains.
+// Other arrangements of the same numbers compare ill and count only where there is nothing else.
+const Candidate* runner_up(const std::vector<Sheet>& sheets,
+                           const std::vector<Candidate>& candidates,
+                           const std::vector<ChannelErrors>& errors) {
+  const Candidate& best = candidates[0];
+  const auto alike = [&](const Candidate& other) {
+    return sheets[other.sheet].arrangement.words == sheets[best.sheet].arrangement.words &&
+           other.fits.size() == best.fits.size();
+  };
+  const Candidate* next = nullptr;
+  for (size_t i = 1; i < candidates.size(); ++i) {
+    const Candidate& one = candidates[i];
+    if (next == nullptr || (alike(one) && !alike(*next)) ||
+        (alike(one) == alike(*next) &&
+         ratio_between(errors, best, one) < ratio_between(errors, best, *next))) {
+      next = &one;
+    }
+  }
+  return next;
+}
+
+// All channels by their nearest meaning, for a table that nothing fits.
+std::vector<ChannelErrors> nearest_of(std::vector<ChannelErrors> errors) {
+  for (ChannelErrors& one : errors) one.known = true;
+  return errors;
+}
+
+void judge(const std::vector<Sheet>& sheets, const std::vector<Candidate>& candidates,
+           Verdict& verdict) {
+  const Candidate& best = candidates[0];
+  const Sheet& sheet = sheets[best.sheet];
+  const Comparison comparison = compare(sheet, best, entries_measured);
+  const std::vector<ChannelErrors> errors = errors_of(comparison);
+  verdict.best = describe(sheet, best, comparison);
+  if (const Candidate* next = runner_up(sheets, candidates, errors)) {
+    const Sheet& other = sheets[next->sheet];
+    verdict.runner_up = describe(other, *next, compare(other, *next, entries_aligned), errors);
+    verdict.ratio = ratio_between(errors, best, *next);
+  }
+  verdict.fits = acceptable(sheet, errors, verdict.ratio);
+  verdict.errors = error_layers(sheet, best, comparison);
+  if (const std::string text = not_finite_statement(sheet); !text.empty()) {
+    verdict.statements.push_back(text);
+  }
+  if (!verdict.fits) {
+    verdict.best = describe(sheet, best, comparison, nearest_of(errors));
+    return;
+  }
+  verdict.presets = presets_like(sheet, unshifted(best));
+  for (std::string& text : statements_on({sheet, best, comparison, verdict.best})) {
+    verdict.statements.push_back(std::move(text));
+  }
+  if (verdict.runner_up && verdict.ratio < 1.2) {
+    verdict.statements.push_back("cannot be told apart from: " + verdict.runner_up->convention);
+  }
+}
+
+Verdict verify_sheets(const std::vector<Sheet>& sheets) {
+  Verdict verdict;
+  std::vector<Candidate> candidates = search(sheets, classes_kept);
+  if (candidates.empty()) return verdict;
+  look_closer(sheets, candidates);
+  judge(sheets, candidates, verdict);
+  return verdict;
+}
+
+}  // namespace
+}  // namespace validate
+
+Verdict verify_tables(const std::vector<NumberArray>& arrays, const VerifyOptions& options) {
+  Verdict verdict = validate::verify_sheets(validate::joined_sheets(arrays));
+  if (!verdict.fits) verdict = validate::verify_sheets(validate::possible_sheets(arrays));
+  if (options.max_error > 0) {
+    verdict.within = verdict.fits && verdict.best.max_error <= options.max_error;
+  }
+  return verdict;
+}
+
+}  // namespace kiln
