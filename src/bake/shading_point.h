@@ -55,7 +55,7 @@ ShadingPoint<F, Diffuse> make_shading_point(const TexelValues<F>& texel,
   point.row = table.row(point.roughness);
   point.average = table.average(point.row);
   point.terms_o = table.terms(point.row, point.wo.z);
-  const Schlick<F> fresnel{texel.f0, F(1)};
+  const PerChannel<Schlick<F>> fresnel = schlick_of(texel.f0, F(1));
   const Diffuse diffuse{texel.diffuse_color, point.roughness};
   point.surface =
       Surface<F, Diffuse>::make(to_alpha(point.roughness), fresnel, diffuse, point.average, energy);

@@ -21,7 +21,7 @@ double sky(const Vec3<double>& d) { return std::exp(2 * (0.6 * d.x + 0.8 * d.z))
 template <class Diffuse>
 double integrate_radiance(const test::Uniform& u, const Vec3<double>& wo) {
   const double alpha = to_alpha(static_cast<double>(u.roughness));
-  const Schlick<double> fresnel{{u.f0, u.f0, u.f0}, 1};
+  const auto fresnel = schlick_of<double>({u.f0, u.f0, u.f0}, 1.0);
   const auto average = integrate_average(alpha);
   const auto surface = Surface<double, Diffuse>::make(
       alpha, fresnel, {{u.diffuse, u.diffuse, u.diffuse}, u.roughness}, average,

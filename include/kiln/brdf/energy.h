@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "kiln/brdf/schlick.h"
 
 namespace kiln {
@@ -72,5 +74,121 @@ F coupling(const SpecularChannel<F>& greatest, const Albedo<F>& albedo, bool con
   const F left_average = max(F(1) - greatest.reflectance(albedo.average), F(1e-6));
   return left_o * left_i / left_average;
 }
+
+// What is done about the light that bounces between microfacets, as models on a list. Each says,
+// for one channel, what multiplies the single-bounce BRDF, what is added to it [1/sr], and what the
+// lobe then reflects in total.
+
+/// What these models read of one channel.
+template <class F>
+struct ChannelEnergy {
+  F f0;               ///< reflectance at normal incidence
+  F fresnel_average;  ///< F_avg over the hemisphere
+  F reflectance;      ///< R(mu_o), albedo of the single-bounce lobe with its Fresnel
+};
+
+/// The lobe as it is: rough metals darken.
+template <class F>
+struct SingleBounce {
+  static constexpr std::string_view name = "none";
+  static constexpr std::string_view summary = "first bounce only: rough metals darken";
+  static constexpr std::string_view source = "Torrance & Sparrow 1967";
+  static constexpr bool reciprocal = true;
+
+  static F scale(const ChannelEnergy<F>&, const Albedo<F>&) { return F(1); }
+  static F added(const ChannelEnergy<F>&, const Albedo<F>&) { return F(0); }
+  static F total(const ChannelEnergy<F>& channel, const Albedo<F>&) { return channel.reflectance; }
+};
+
+/// A lobe of its own for what the first bounce loses, coloured by F_avg: see multiple_scattering.
+template <class F>
+struct KullaConty {
+  static constexpr std::string_view name = "kulla-conty";
+  static constexpr std::string_view summary = "reciprocal lobe for what the first bounce loses";
+  static constexpr std::string_view source = "Kulla & Conty 2017, F_avg squared";
+  static constexpr bool reciprocal = true;
+
+  static F color(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    return multiple_scattering_color(channel.fresnel_average, albedo.average.total());
+  }
+  static F scale(const ChannelEnergy<F>&, const Albedo<F>&) { return F(1); }
+  static F added(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    return color(channel, albedo) * multiple_scattering(albedo);
+  }
+  static F total(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    return fma(color(channel, albedo), F(1) - albedo.o.total(), channel.reflectance);
+  }
+};
+
+/// The lobe scaled up: 1 + F0 (1 - E(mu_o)) / E(mu_o). Not reciprocal.
+template <class F>
+struct Turquin {
+  static constexpr std::string_view name = "turquin";
+  static constexpr std::string_view summary = "lobe scaled by 1 + F0 (1/E - 1); not reciprocal";
+  static constexpr std::string_view source = "Turquin 2019";
+  static constexpr bool reciprocal = false;
+
+  static F scale(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    const F e = albedo.o.total();
+    return fma(channel.f0, (F(1) - e) / max(e, F(1e-6)), F(1));
+  }
+  static F added(const ChannelEnergy<F>&, const Albedo<F>&) { return F(0); }
+  static F total(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    return channel.reflectance * scale(channel, albedo);
+  }
+};
+
+/// A diffuse lobe for what the first bounce loses, meant for light from everywhere:
+/// R F_avg / (1 - F_avg (1 - E)) (1 - E) with R and E those of mu_o. Not reciprocal.
+template <class F>
+struct FdezAguera {
+  static constexpr std::string_view name = "fdez-aguera";
+  static constexpr std::string_view summary = "diffuse lobe for what is lost; not reciprocal";
+  static constexpr std::string_view source = "Fdez-Aguera 2019";
+  static constexpr bool reciprocal = false;
+
+  static F lost(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    const F missing = F(1) - albedo.o.total();
+    return channel.reflectance * channel.fresnel_average * missing /
+           max(F(1) - channel.fresnel_average * missing, F(1e-7));
+  }
+  static F scale(const ChannelEnergy<F>&, const Albedo<F>&) { return F(1); }
+  static F added(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    return lost(channel, albedo) * F(1 / pi);
+  }
+  static F total(const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+    return channel.reflectance + lost(channel, albedo);
+  }
+};
+
+// How a diffuse lobe makes room for the specular one above it, as models on a list: the weight of
+// the diffuse lobe.
+
+/// See coupling.
+template <class F>
+struct ReciprocalCoupling {
+  static constexpr std::string_view name = "reciprocal";
+  static constexpr std::string_view summary = "diffuse lobe weighted by what both directions leave";
+  static constexpr std::string_view source = "Kelemen & Szirmay-Kalos 2001";
+  static constexpr bool reciprocal = true;
+
+  static F weight(const SpecularChannel<F>& greatest, const Albedo<F>& albedo,
+                  bool constant_albedo) {
+    return coupling(greatest, albedo, constant_albedo);
+  }
+};
+
+/// 1 - R(mu_o): exact for any diffuse lobe, and not reciprocal.
+template <class F>
+struct AlbedoScaling {
+  static constexpr std::string_view name = "albedo-scaling";
+  static constexpr std::string_view summary = "diffuse lobe times 1 - R(mu_o); not reciprocal";
+  static constexpr std::string_view source = "OpenPBR; MaterialX";
+  static constexpr bool reciprocal = false;
+
+  static F weight(const SpecularChannel<F>& greatest, const Albedo<F>& albedo, bool) {
+    return clamp(F(1) - greatest.reflectance(albedo.o), F(0), F(1));
+  }
+};
 
 }  // namespace kiln

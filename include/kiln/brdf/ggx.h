@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
 
-#include "kiln/math/vec.h"
+#include "kiln/brdf/model_param.h"
+#include "kiln/brdf/slopes.h"
 
 namespace kiln {
 
@@ -14,8 +16,15 @@ struct Ggx {
   static constexpr std::string_view summary = "GGX (Trowbridge-Reitz) microfacet normals";
   static constexpr std::string_view source = "Trowbridge & Reitz 1975; Walter et al. 2007";
 
+  static constexpr std::array params = {alpha_x_param, alpha_y_param};
+  static constexpr bool anisotropic = true;     ///< alpha_x may differ from alpha_y
+  static constexpr bool alpha_is_width = true;  ///< alpha is a width of slopes
+  static constexpr bool has_lambda = true;
+  static constexpr bool exact_lambda = true;
+
   F alpha_x, alpha_y;
 
+  static Ggx make(F alpha_x, F alpha_y, F) { return {alpha_x, alpha_y}; }
   static Ggx isotropic(F alpha) { return {alpha, alpha}; }
 
   /// Density of microfacet normals.
@@ -52,6 +61,14 @@ struct Ggx {
     const F x = alpha_x * w.x, y = alpha_y * w.y;
     const F q = fma(x, x, y * y) / max(w.z * w.z, F(1e-30));
     return q / (F(2) * (F(1) + sqrt(F(1) + q)));
+  }
+
+  /// A microfacet normal with density D(wm) wm.z: t^2 = u / (1 - u) in stretched slopes.
+  /// @param u  uniform in (0,1)^2
+  /// @source   Walter et al. 2007
+  Vec3<F> sample(const Vec2<F>& u) const {
+    const F t = sqrt(u.y / (F(1) - u.y)), phi = F(2 * pi) * u.x;
+    return normal_of_slopes(alpha_x * t * cos(phi), alpha_y * t * sin(phi));
   }
 
   /// A microfacet normal visible from wo, drawn from the bounded spherical cap, for which few

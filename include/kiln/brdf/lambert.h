@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string_view>
 
-#include "kiln/math/vec.h"
+#include "kiln/brdf/fujii.h"
 
 namespace kiln {
 
@@ -15,6 +16,11 @@ struct Lambert {
   static constexpr std::string_view source = "Lambert 1760";
   /// Its albedo is the same from every direction, so energy coupling can be exact.
   static constexpr bool constant_albedo = true;
+  static constexpr std::array params = {color_param};
+  static constexpr bool reciprocal = true;
+  static constexpr bool has_albedo = true;
+  static constexpr bool closed_albedo = true;
+  static constexpr double greatest_albedo = 1;
 
   Vec3<F> color;  ///< reflectance [0..1]
   F roughness;    ///< not read

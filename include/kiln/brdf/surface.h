@@ -24,13 +24,13 @@ struct Reflected {
 template <class F, class Diffuse>
 struct Surface {
   Ggx<F> ggx;
-  Schlick<F> fresnel;
+  PerChannel<Schlick<F>> fresnel;
   Diffuse diffuse;
   Vec3<F> multiple;             ///< F_ms per channel, 0 without multiple scattering
   SpecularChannel<F> greatest;  ///< the channel with the greatest F0
 
   /// @param average  the lobe's split-sum terms averaged over directions
-  static Surface make(F alpha, const Schlick<F>& fresnel, const Diffuse& diffuse,
+  static Surface make(F alpha, const PerChannel<Schlick<F>>& fresnel, const Diffuse& diffuse,
                       const SplitSumTerms<F>& average, Energy energy) {
     Surface surface{Ggx<F>::isotropic(alpha), fresnel, diffuse, {F(0), F(0), F(0)}, {}};
     if (energy == Energy::Multiscatter) {
@@ -39,17 +39,18 @@ struct Surface {
       surface.multiple = {multiple_scattering_color(f.x, e), multiple_scattering_color(f.y, e),
                           multiple_scattering_color(f.z, e)};
     }
-    surface.greatest = {max_component(fresnel.f0), fresnel.f90, max_component(surface.multiple)};
+    const F f0 = max(fresnel.x.f0, max(fresnel.y.f0, fresnel.z.f0));
+    surface.greatest = {f0, fresnel.x.f90, max_component(surface.multiple)};
     return surface;
   }
 
   /// Reflectance of the specular lobe toward a direction, per channel.
   Vec3<F> specular_reflectance(const SplitSumTerms<F>& terms) const {
-    const auto channel = [&](F f0, F m) {
-      return SpecularChannel<F>{f0, fresnel.f90, m}.reflectance(terms);
+    const auto channel = [&](const Schlick<F>& schlick, F m) {
+      return SpecularChannel<F>{schlick.f0, schlick.f90, m}.reflectance(terms);
     };
-    return {channel(fresnel.f0.x, multiple.x), channel(fresnel.f0.y, multiple.y),
-            channel(fresnel.f0.z, multiple.z)};
+    return {channel(fresnel.x, multiple.x), channel(fresnel.y, multiple.y),
+            channel(fresnel.z, multiple.z)};
   }
 
   /// @param wm  the half vector of wo and wi
@@ -57,7 +58,7 @@ struct Surface {
   /// @valid     wo.z > 0 and wi.z > 0
   Reflected<F> eval(const Vec3<F>& wo, const Vec3<F>& wi, const Vec3<F>& wm, F d,
                     const Albedo<F>& albedo) const {
-    const F lobe = d * SmithCorrelated<F>::visibility(ggx, wo, wi);
+    const F lobe = d * SmithCorrelated<F>::visibility(ggx, wo, wi, wm);
     const Vec3<F> single = fresnel.eval(dot(wo, wm)) * lobe;
     const F weight = coupling(greatest, albedo, Diffuse::constant_albedo);
     return {single + multiple * multiple_scattering(albedo), diffuse.eval(wo, wi) * weight};

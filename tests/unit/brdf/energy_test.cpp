@@ -34,16 +34,16 @@ TEST(Coupling, OfAnyLobeNeverExceedsWhatIsLeft) {
 }
 
 TEST(SchlickFresnel, AverageIsOneTwentyFirstOfTheWayToGrazing) {
-  const Schlick<double> fresnel{{0.04, 0.5, 1}, 1};
+  const auto fresnel = schlick_of<double>({0.04, 0.5, 1}, 1.0);
   EXPECT_NEAR(fresnel.average().x, 0.04 + 0.96 / 21, 1e-15);
   EXPECT_NEAR(fresnel.average().y, 0.5 + 0.5 / 21, 1e-15);
   EXPECT_NEAR(fresnel.average().z, 1, 1e-15);
 }
 
 TEST(SchlickFresnel, RunsFromF0ToF90) {
-  const Schlick<double> fresnel{{0.04, 0.5, 1}, 1};
-  EXPECT_DOUBLE_EQ(fresnel.eval(1).x, 0.04);
-  EXPECT_DOUBLE_EQ(fresnel.eval(0).x, 1);
+  const auto fresnel = schlick_of<double>({0.04, 0.5, 1}, 1.0);
+  EXPECT_DOUBLE_EQ(fresnel.eval(1.0).x, 0.04);
+  EXPECT_DOUBLE_EQ(fresnel.eval(0.0).x, 1);
 }
 
 }  // namespace
