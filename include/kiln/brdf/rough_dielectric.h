@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kiln/brdf/dielectric.h"
 #include "kiln/brdf/ggx.h"
 #include "kiln/brdf/smith.h"
 
@@ -9,29 +10,6 @@ namespace kiln {
 /// What a path carries through the surface: radiance, traced from the viewer, shrinks and grows
 /// with the solid angle at a refraction; importance (or light, traced from its source) does not.
 enum class Transport { Radiance, Importance };
-
-/// Reflectance of a plane boundary of dielectrics, unpolarised.
-///
-///     g^2 = eta^2 - 1 + c^2,  F = 1/2 ((g - c) / (g + c))^2 (1 + ((c (g + c) - 1) / (c (g - c) +
-///     1))^2)
-///
-/// with g - c = (eta^2 - 1) / (g + c), which keeps its digits near eta = 1.
-///
-/// @param cosine  of the angle on the side from which the light comes
-/// @param eta     refractive index of the other side relative to that
-/// @return        [0..1]; 1 beyond the critical angle
-/// @source        Cook and Torrance 1982; Walter et al. 2007
-template <class F>
-F boundary_reflectance(F cosine, F eta) {
-  const F c = clamp(abs(cosine), F(0), F(1));
-  const F step = (eta - F(1)) * (eta + F(1));
-  const F g2 = fma(c, c, step);
-  const F sum = max(safe_sqrt(g2) + c, F(1e-18));
-  const F across = step / (sum * sum);
-  const F along = fma(c, sum, F(-1)) / fma(c, step / sum, F(1));
-  const F reflected = F(0.5) * across * across * fma(along, along, F(1));
-  return select(g2 > F(0), min(reflected, F(1)), select(step < F(0), F(1), F(0)));
-}
 
 /// A direction drawn from a rough dielectric, and what it is worth.
 template <class F>
@@ -68,7 +46,7 @@ struct RoughDielectric {
   /// @return [1/sr], without the cosine, >= 0
   F eval(const Vec3<F>& wo, const Vec3<F>& wi, Transport transport = Transport::Radiance) const {
     const Geometry at = meet(wo, wi);
-    const F g2_over_cosines = F(4) * Masking<F>::visibility(ggx(), at.wo, at.wi_mirrored);
+    const F g2_over_cosines = F(4) * Masking<F>::visibility(ggx(), at.wo, at.wi_mirrored, at.wm);
     const F common = ggx().D(at.wm) * g2_over_cosines;
     const F reflected = F(0.25) * common * at.reflectance;
     F transmitted = (F(1) - at.reflectance) * common * at.refraction_jacobian * at.cosine_o;
@@ -95,7 +73,7 @@ struct RoughDielectric {
     at.step = select(wo.z < F(0), F(1) / eta, eta);
     at.wm = visible_normal(at.wo, {u.x, u.y});
     at.cosine_o = min(max(dot(at.wo, at.wm), F(0)), F(1));
-    at.reflectance = boundary_reflectance(at.cosine_o, at.step);
+    at.reflectance = Dielectric<F>{at.step}.eval(at.cosine_o);
     at.below = u.z >= at.reflectance;
     const Vec3<F> wi = select(at.below, refract(at), at.wm * (F(2) * at.cosine_o) - at.wo);
     at.wi_mirrored = {wi.x, wi.y, abs(wi.z)};
@@ -103,8 +81,8 @@ struct RoughDielectric {
     at.set_jacobian(dot(wi, at.wm), dot(chord, chord));
     const auto kept = ((wi.z < F(0)) == at.below) && (wi.z != F(0)) && (at.wo.z > F(0));
     const F stretched = at.wo.z + ggx().stretched_length(at.wo);
-    const F g2_over_g1 =
-        F(2) * at.wi_mirrored.z * stretched * Masking<F>::visibility(ggx(), at.wo, at.wi_mirrored);
+    const F g2_over_g1 = F(2) * at.wi_mirrored.z * stretched *
+                         Masking<F>::visibility(ggx(), at.wo, at.wi_mirrored, at.wm);
     const F shrink = transport == Transport::Radiance ? F(1) / (at.step * at.step) : F(1);
     return {wi * side, select(kept, select(at.below, g2_over_g1 * shrink, g2_over_g1), F(0)),
             select(kept, density_at(at), F(0)), at.below};
@@ -141,7 +119,7 @@ struct RoughDielectric {
     at.wm = chord * select(chord.z < F(0), -scale, scale);
     at.cosine_o = dot(at.wo, at.wm);
     const F cosine_i = dot(i, at.wm);
-    at.reflectance = boundary_reflectance(at.cosine_o, at.step);
+    at.reflectance = Dielectric<F>{at.step}.eval(at.cosine_o);
     at.set_jacobian(cosine_i, chord2);
     at.possible = (at.wo.z > F(0)) && (at.wi_mirrored.z > F(0)) && (at.cosine_o > F(0)) &&
                   ((cosine_i < F(0)) == at.below);

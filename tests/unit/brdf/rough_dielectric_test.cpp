@@ -28,27 +28,6 @@ double integrate_sphere(const Integrand& f) {
   return test::integrate_hemisphere(f, 200, 400) + test::integrate_hemisphere(below, 200, 400);
 }
 
-TEST(BoundaryReflectance, IsTheSquaredIndexRatioStraightDownAndOneAlongTheSurface) {
-  for (const double eta : {1.1, 1.5, 2.4, 1 / 1.5}) {
-    EXPECT_NEAR(boundary_reflectance(1.0, eta), square((eta - 1) / (eta + 1)), 1e-15);
-    EXPECT_NEAR(boundary_reflectance(0.0, eta), 1, 1e-15);
-  }
-}
-
-TEST(BoundaryReflectance, IsTheSameFromBothSidesAtRefractedAngles) {
-  for (const double eta : {1.01, 1.5, 2.4}) {
-    for (const double c : {0.05, 0.4, 0.9}) {
-      const double inside = std::sqrt(1 - (1 - c * c) / (eta * eta));
-      EXPECT_NEAR(boundary_reflectance(inside, 1 / eta), boundary_reflectance(c, eta), 1e-13);
-    }
-  }
-}
-
-TEST(BoundaryReflectance, IsOneBeyondTheCriticalAngleAndZeroWithoutABoundary) {
-  EXPECT_EQ(boundary_reflectance(0.5, 1 / 1.5), 1);
-  for (const double c : {0.0, 0.3, 1.0}) EXPECT_EQ(boundary_reflectance(c, 1.0), 0);
-}
-
 TEST(RoughDielectric, ReflectsAlikeWhenLightRunsBackward) {
   const Glass glass{0.2, 0.5, 1.5};
   for (const auto& wo : both_sides(9)) {
@@ -166,7 +145,7 @@ TEST(RoughDielectric, AtAnAlphaNearZeroIsAPlaneBoundary) {
   EXPECT_NEAR(back.wi.x, -wo.x, 1e-3);
   const double reflected =
       mean_of_samples(glass, wo, [](const auto& s) { return s.transmitted ? 0 : s.weight; });
-  EXPECT_NEAR(reflected, boundary_reflectance(0.6, 1.5), 2e-3 + 1.0 / 64);
+  EXPECT_NEAR(reflected, Dielectric<double>{1.5}.eval(0.6), 2e-3 + 1.0 / 64);
 }
 
 template <class F>
