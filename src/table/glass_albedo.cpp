@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kiln/brdf/rough_dielectric.h"
+#include "kiln/brdf/dielectric.h"
 #include "kiln/integrate/gauss_legendre.h"
 
 namespace kiln {
@@ -13,7 +13,7 @@ namespace {
 
 using Wide = WideDouble;
 constexpr int lanes = lane_count<Wide>;
-constexpr double least_mu = 1e-4, least_alpha = 1e-8;
+constexpr double lowest_mu = 1e-4, least_alpha = 1e-8;
 
 // Nodes and weights of Gauss-Legendre after s^2 (3 - 2 s), padded to whole vectors by weight 0.
 struct EndedRule {
@@ -142,7 +142,7 @@ double critical_angle(const View& view) { return view.eta < 1 ? std::asin(view.e
 double integrate_reflected(const View& view, const EndedRule& arcs, const EndedRule& rings) {
   return integrate_rings(view, {(pi / 2 - view.theta) / 2, critical_angle(view), view.theta},
                          (pi / 2 + view.theta) / 2, rings, [&](const Ring& ring) {
-                           return boundary_reflectance(ring.cosine, view.eta) *
+                           return Dielectric<double>{view.eta}.eval(ring.cosine) *
                                   integrate_arc(view, ring, reflected_arc(view, ring), arcs);
                          });
 }
@@ -157,7 +157,7 @@ double integrate_refracted(const View& view, const EndedRule& arcs, const EndedR
       std::atan2(view.eta * std::sin(left), 1 - std::min(view.eta, 1.0) * std::cos(left));
   return integrate_rings(
       view, {bent, left, view.theta}, critical_angle(view), rings, [&](const Ring& ring) {
-        return (1 - boundary_reflectance(ring.cosine, view.eta)) *
+        return (1 - Dielectric<double>{view.eta}.eval(ring.cosine)) *
                integrate_arc(view, ring, choose(refracted_arc(view, ring)), arcs);
       });
 }
@@ -167,7 +167,7 @@ Arc bent_back(const Arc& arc) { return {-arc.at_zero, -arc.slope, 0, arc.first};
 
 View make_view(double mu, double alpha, double eta) {
   View view{};
-  view.mu = std::clamp(mu, least_mu, 1.0);
+  view.mu = std::clamp(mu, lowest_mu, 1.0);
   view.sine = std::sqrt((1 - view.mu) * (1 + view.mu));
   view.theta = std::atan2(view.sine, view.mu);
   view.alpha = std::clamp(alpha, least_alpha, 1.0);

@@ -30,7 +30,7 @@ TEST(GlassAlbedo, OfAnAlphaNearZeroIsThatOfAPlaneBoundary) {
   for (const double eta : indices) {
     for (const double mu : {0.3, 0.8, 1.0}) {
       const GlassTerms terms = integrate_glass(mu, 1e-6, eta);
-      EXPECT_NEAR(terms.reflected, boundary_reflectance(mu, eta), 2e-5) << mu << " " << eta;
+      EXPECT_NEAR(terms.reflected, Dielectric<double>{eta}.eval(mu), 2e-5) << mu << " " << eta;
       EXPECT_NEAR(terms.total(), 1, 2e-5);
     }
   }
@@ -40,7 +40,7 @@ TEST(GlassAlbedo, OfReflectionAloneIsTheDirectionalAlbedo) {
   // An index that is nothing but total reflection: all but a sliver of facets see F = 1.
   for (const double mu : {0.05, 0.4, 0.8}) {
     for (const double alpha : {0.05, 0.5}) {
-      const double mirror = integrate_split_sum(mu, alpha, reference_order).total();
+      const double mirror = integrate_split_sum(mu, alpha).total();
       const GlassTerms glass = integrate_glass(mu, alpha, 1e-3, glass_reference_order);
       EXPECT_NEAR(glass.reflected, mirror, 1e-5);
     }
