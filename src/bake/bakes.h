@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kiln/bake/bake.h"
+#include "kiln/brdf/fresnel.h"
 
 namespace kiln {
 
@@ -15,9 +16,14 @@ struct LutBake {
   static constexpr Scope scope = Scope::Once;
   static constexpr Product product = Product::Numbers;
   struct Settings {
-    std::string table = "split-sum";
-    Size size{128, 128};
-    std::string distribution = "ggx", masking = "smith-correlated", fresnel = "schlick";
+    std::string table = "split-sum", preset;
+    Size size{};    ///< 0: the preset's, or 128x128
+    int depth = 0;  ///< 0: 16
+    std::string axes, align, origin, channels;            ///< empty: the preset's or the table's
+    std::string distribution, masking, fresnel;           ///< likewise
+    double shape = 0;
+    FresnelChannel<double> fresnel_numbers = {};
+    bool exact = false;
   };
   static Params<Settings> params();
   static Needs needs(const Settings&) { return {}; }

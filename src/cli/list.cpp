@@ -45,13 +45,10 @@ std::vector<Item> list_models(const Globals&) {
   return items;
 }
 
-std::vector<Item> list_of_tables(const Globals&) {
+std::vector<Item> items_of(const std::vector<NamedText>& texts) {
   std::vector<Item> items;
-  for (const TableSummary& table : list_tables()) {
-    Item item{table.name, table.summary};
-    for (const std::string& channel : table.channels) item.facts.emplace_back("channel", channel);
-    items.push_back(std::move(item));
-  }
+  items.reserve(texts.size());
+  for (const NamedText& text : texts) items.push_back({text.name, text.summary, text.facts});
   return items;
 }
 
@@ -103,7 +100,12 @@ std::vector<Item> list_color_spaces(const Globals& globals) {
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list = {
       {"models", "distributions, masking, Fresnel and diffuse models", list_models},
-      {"tables", "what kiln lut integrates", list_of_tables},
+      {"tables", "what kiln lut integrates", [](const Globals&) { return items_of(list_tables()); }},
+      {"axes", "how a table's axes may run", [](const Globals&) { return items_of(list_lut_axes()); }},
+      {"channels", "what a table may hold",
+       [](const Globals&) { return items_of(list_lut_channels()); }},
+      {"presets", "layouts of engines for kiln lut",
+       [](const Globals&) { return items_of(list_lut_presets()); }},
       {"bakes", "what a pipeline file can make", list_bakes},
       {"namings", "schemes that tell a map's slot from its file name", list_namings},
       {"maps", "slots of a texture set", list_slots},
@@ -223,7 +225,8 @@ int run(const std::string& word, const Globals& globals) {
 Action declare(CLI::App& app) {
   const auto word = std::make_shared<std::string>();
   app.add_option("WORD", *word,
-                 "models, tables, bakes, namings, maps, colour-spaces, schema, or the name of one")
+                 "models, tables, axes, channels, presets, bakes, namings, maps, colour-spaces, schema, or "
+                 "the name of one")
       ->type_name("");
   return [word](const Globals& globals) { return run(*word, globals); };
 }

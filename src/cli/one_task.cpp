@@ -111,10 +111,16 @@ void BakeOptions::declare(CLI::App& app, const ParamFacts& facts) {
 BakeChoice BakeOptions::choice(std::vector<std::pair<std::string, std::string>> keys) const {
   keys.emplace_back("bake", bake_);
   keys.emplace_back("out", "output");
+  for (auto& key : given()) keys.push_back(std::move(key));
+  return bake_choice(keys);
+}
+
+std::vector<std::pair<std::string, std::string>> BakeOptions::given() const {
+  std::vector<std::pair<std::string, std::string>> keys;
   for (const auto& option : options_) {
     if (option->option->count() > 0) keys.emplace_back(option->key, option->text);
   }
-  return bake_choice(keys);
+  return keys;
 }
 
 int run_one_task(Pipeline pipeline, const std::string& output, const Globals& globals) {

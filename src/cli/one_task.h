@@ -22,6 +22,9 @@ class BakeOptions {
   /// @error Fault::Usage naming the parameter
   BakeChoice choice(std::vector<std::pair<std::string, std::string>> keys) const;
 
+  /// The keys that were given, and their texts.
+  std::vector<std::pair<std::string, std::string>> given() const;
+
  private:
   struct Option {
     std::string key;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "kiln/pipeline/report.h"
 #include "kiln/store/publish.h"
@@ -28,7 +29,7 @@ bool is_image_name(const fs::path& path) {
 void check_type(Product product, std::optional<PixelType> type, const fs::path& path) {
   const WritableFormat& format = writable_format(path);
   if (product == Product::Numbers && format.name == "jpeg") {
-    throw Error(Fault::Usage, "jpg loses numbers; expected exr, png, hdr or tif");
+    throw Error(Fault::Usage, "jpg loses numbers; expected exr, png, hdr, tif, dds, ktx2, npy, csv or h");
   }
   if (!type || std::count(format.types.begin(), format.types.end(), *type)) return;
   std::vector<std::string_view> held;
@@ -86,11 +87,30 @@ PixelType usual_type(Product product, const fs::path& path) {
   return small ? format.types.front() : format.types.back();
 }
 
+// What the task asks for, else what the product prefers if the format holds it, else the usual.
+PixelType chosen_type(const Task& task, const Artifact& artifact, const fs::path& path) {
+  if (task.output.type) return *task.output.type;
+  for (const PixelType held : writable_format(path).types) {
+    if (pixel_type_name(held) == artifact.preferred_type) return held;
+  }
+  return usual_type(task.product, path);
+}
+
+Labels labels_of(const Artifact& artifact) {
+  Labels labels;
+  for (const auto& [name, coordinates] : artifact.axes) labels.axes.push_back({name, coordinates});
+  labels.channels = artifact.channel_names;
+  return labels;
+}
+
 WriteOptions write_options(const Plan& plan, const Task& task, const Artifact& artifact,
                            const fs::path& path) {
   const WritableFormat& format = writable_format(path);
   WriteOptions options;
-  options.type = task.output.type.value_or(usual_type(task.product, path));
+  options.type = chosen_type(task, artifact, path);
+  options.depth = artifact.depth;
+  options.labels = labels_of(artifact);
+  if (!artifact.axes.empty()) options.packing = Packing::Fast;
   options.attributes = artifact.attributes;
   options.attributes.emplace_back("Software", software());
   const std::string color = color_name(plan, task, format.name);
@@ -115,6 +135,18 @@ std::string write_image_of(const Plan& plan, const Task& task, const Artifact& a
   return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
                      path.filename().string(), facts.clamped, pixel_type_name(options.type),
                      facts.largest_clamped);
+}
+
+// Beside a file whose format has no room for them.
+void write_attributes(const fs::path& path, const Artifact& artifact) {
+  nlohmann::ordered_json json;
+  for (const auto& [name, text] : artifact.attributes) json[name] = text;
+  json["Software"] = software();
+  publish_text(path, json.dump(2) + "\n");
+}
+
+bool needs_attributes_beside(const Artifact& artifact, const fs::path& path) {
+  return !artifact.axes.empty() && !writable_format(path).holds_attributes;
 }
 
 std::string output_name(const Task& task, const Artifact& artifact) {
@@ -175,6 +207,10 @@ Written write_outputs(const Plan& plan, const Task& task, const Baked& baked,
       if (!note.empty()) written.notes.push_back(note);
     }
     written.outputs.push_back(name);
+    if (artifact.text.empty() && needs_attributes_beside(artifact, path)) {
+      write_attributes(path.string() + ".json", artifact);
+      written.outputs.push_back(name + ".json");
+    }
   }
   return written;
 }

@@ -192,7 +192,7 @@ MaterialChoice read_material(const Node& node) {
 }
 
 PixelType pixel_type(const std::string& word) {
-  return static_cast<PixelType>(index_of(word, {"uint8", "uint16", "half", "float"}));
+  return static_cast<PixelType>(index_of(word, pixel_type_words()));
 }
 
 // True when the key is one of the runner's own.

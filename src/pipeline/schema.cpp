@@ -196,7 +196,8 @@ const BlockFacts& block_named(const std::string& name) {
 }
 
 std::vector<Key> output_keys(Product product) {
-  std::vector<std::string> types = {"uint8", "uint16", "half", "float"};
+  std::vector<std::string> types = pixel_type_words();
+  if (product == Product::Picture) types.resize(4);
   if (product == Product::Folder) types = {"half", "float"};
   std::vector<Key> keys = {
       word("type", std::move(types), "", "numbers of the file, if not the format's usual")};
@@ -205,6 +206,10 @@ std::vector<Key> output_keys(Product product) {
   keys.push_back(text("view_transform", "view of that display", "the display's own"));
   keys.push_back(number("exposure", {-100, 100}, "[EV]", "for png and jpg", "0"));
   return keys;
+}
+
+std::vector<std::string> pixel_type_words() {
+  return {"uint8", "uint16", "half", "float", "rgb10a2", "rgbd8"};
 }
 
 BlockFacts bake_block(const BakeFacts& bake) {

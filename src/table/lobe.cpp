@@ -1,22 +1,218 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/table/lobe.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "kiln/brdf/roughness.h"
+#include "kiln/core/error.h"
+#include "kiln/core/names.h"
 #include "kiln/parallel/rows.h"
-#include "kiln/table/directional_albedo.h"
+#include "lobe_kernels.h"
+#include "smooth_field.h"
 
 namespace kiln {
+namespace {
 
-std::vector<SplitSumTerms<double>> integrate_grid(const Lobe&, std::span<const double> mus,
-                                                  std::span<const double> alphas, Quality quality) {
-  std::vector<SplitSumTerms<double>> terms(mus.size() * alphas.size());
-  for_rows(static_cast<int>(mus.size()), [&](int i) {
-    const QuadratureOrder order =
-        quality == Quality::Exact ? reference_order : table_order(mus[i]);
-    const ViewRule rule = make_view_rule(mus[i], order.azimuths);
-    for (size_t j = 0; j < alphas.size(); ++j) {
-      terms[j * mus.size() + i] = integrate_split_sum(rule, alphas[j], order.slopes);
+// Rules are tiny and asked for again and again: made once for every order that is used.
+const Rule& unit_rule(int n) {
+  static const std::array<Rule, most_slopes + 1> rules = [] {
+    std::array<Rule, most_slopes + 1> made;
+    for (const int k : {40, 64, 80, 96, 128, 160, 192, 256}) made[k] = gauss_legendre(k);
+    return made;
+  }();
+  return rules[n];
+}
+
+double sum_lanes(Wide values) {
+  double lane[wide_lanes];
+  store_lanes(lane, values);
+  double sum = 0;
+  for (const double value : lane) sum += value;
+  return sum;
+}
+
+bool has_kinks(const std::string& masking) {
+  return masking == "v-cavity" || masking == "neumann" || masking == "kelemen";
+}
+
+double greatest_error(const std::vector<LobeTerms>& found, const std::vector<LobeTerms>& truth) {
+  double greatest = 0;
+  for (size_t i = 0; i < found.size(); ++i) {
+    const double scale = std::abs(found[i].scale - truth[i].scale);
+    const double unit = std::max(truth[i].total(), 1.0);
+    greatest = std::max({greatest, scale / std::max(std::abs(truth[i].scale), 1e-12),
+                         std::abs(found[i].bias - truth[i].bias) / unit,
+                         std::abs(found[i].edge - truth[i].edge)});
+  }
+  return greatest;
+}
+
+}  // namespace
+
+QuadratureOrder order_of(const Lobe& lobe, Quality quality, double mu) {
+  if (has_kinks(lobe.masking)) {
+    constexpr QuadratureOrder orders[] = {{96, 128}, {128, 160}, {192, 192}, {256, 256}};
+    return orders[static_cast<int>(quality)];
+  }
+  constexpr QuadratureOrder orders[] = {{40, 40}, {64, 80}, {96, 160}, {128, 192}};
+  QuadratureOrder order = orders[static_cast<int>(quality)];
+  const double share = (8 + 2.4 * std::log2(1 / std::max(mu, least_mu))) / 32;
+  order.azimuths = static_cast<int>(std::ceil(order.azimuths * std::clamp(share, 0.3, 1.0)));
+  return order;
+}
+
+Quality finer(Quality quality) {
+  return static_cast<Quality>(std::min(static_cast<int>(quality) + 1, 3));
+}
+
+struct LobeIntegrals::Work {
+  Lobe lobe;
+  LobeKernels kernels;
+  FresnelStage stage;
+  double shape = 0;
+  Quality quality = Quality::Table;
+  double floor_mu = least_mu;
+  std::unique_ptr<SmoothField> field;
+  bool field_failed = false;
+
+  LobeTerms integrate(const ViewRule& view, const LobePoint& point, int slopes) const {
+    Wide sums[most_sums] = {Wide(0.0), Wide(0.0), Wide(0.0)};
+    if (point.alpha_x <= 0 && kernels.mirror) {
+      kernels.mirror(view, shape, stage, sums);
+    } else {
+      const double x = std::clamp(point.alpha_x, min_alpha, 1.0);
+      const double y = std::clamp(point.alpha_y, min_alpha, 1.0);
+      kernels.integrate(view, {x, y, shape, point.azimuth}, unit_rule(slopes), stage, sums);
     }
-  });
+    return {sum_lanes(sums[0]), sum_lanes(sums[1]), sum_lanes(sums[2])};
+  }
+
+  std::vector<LobeTerms> column(double mu, std::span<const double> alphas, Quality wanted) const {
+    const QuadratureOrder order = order_of(lobe, wanted, mu);
+    const ViewRule view = make_view_rule(mu, order.azimuths);
+    std::vector<LobeTerms> terms;
+    terms.reserve(alphas.size());
+    for (const double alpha : alphas) {
+      terms.push_back(integrate(view, {mu, alpha, alpha, 0}, order.slopes));
+    }
+    return terms;
+  }
+
+  std::vector<LobeTerms> direct(std::span<const double> mus, std::span<const double> alphas,
+                                Quality wanted) const {
+    std::vector<LobeTerms> terms(mus.size() * alphas.size());
+    for_rows(static_cast<int>(mus.size()), [&](int i) {
+      const std::vector<LobeTerms> one = column(mus[i], alphas, wanted);
+      for (size_t j = 0; j < alphas.size(); ++j) terms[j * mus.size() + i] = one[j];
+    });
+    return terms;
+  }
+
+  // Rows of zero width lie outside the field.
+  void replace_mirrors(std::span<const double> mus, std::span<const double> alphas,
+                       std::vector<LobeTerms>& terms) const {
+    for (size_t j = 0; j < alphas.size(); ++j) {
+      if (alphas[j] > 0) continue;
+      const std::vector<LobeTerms> row = direct(mus, alphas.subspan(j, 1), quality);
+      std::copy(row.begin(), row.end(), terms.begin() + static_cast<long>(j * mus.size()));
+    }
+  }
+
+  // Between the nodes, where an interpolant errs most.
+  double measure(const SmoothField& candidate) const {
+    std::vector<double> mus, alphas;
+    const LogAxis mu{floor_mu, 1, 17}, alpha{min_alpha, 1, 19};
+    for (int i = 0; i < mu.count; ++i) mus.push_back(mu.node(i));
+    for (int j = 0; j < alpha.count; ++j) alphas.push_back(alpha.node(j));
+    mus.push_back(floor_mu);
+    mus.push_back(1);
+    alphas.push_back(min_alpha);
+    alphas.push_back(1);
+    return greatest_error(candidate.grid(mus, alphas), direct(mus, alphas, quality));
+  }
+
+  // Grows until it repeats the quadrature, or gives up.
+  void build_field() {
+    const double smooth = quality == Quality::Table ? 2e-7 : 2e-11;
+    const double tolerance = has_kinks(lobe.masking) ? 5e-5 : smooth;
+    const double decades = std::log10(1 / floor_mu);
+    int mus = static_cast<int>((quality == Quality::Table ? 14 : 21) * decades) + 2;
+    int alphas = quality == Quality::Table ? 48 : 84;
+    for (int attempt = 0; attempt < 2; ++attempt, mus = mus * 3 / 2, alphas = alphas * 3 / 2) {
+      auto candidate = std::make_unique<SmoothField>(
+          LogAxis{floor_mu, 1, mus}, LogAxis{min_alpha, 1, alphas},
+          [&](double mu, std::span<const double> widths) { return column(mu, widths, quality); });
+      if (measure(*candidate) > tolerance) continue;
+      field = std::move(candidate);
+      return;
+    }
+    field_failed = true;
+  }
+};
+
+LobeIntegrals::LobeIntegrals(const Lobe& lobe, const FresnelChoice& fresnel, Quality quality,
+                             double floor_mu)
+    : work_(std::make_unique<Work>()) {
+  work_->lobe = {kebab(lobe.distribution), kebab(lobe.masking), lobe.shape};
+  work_->kernels = find_lobe_kernels(lobe.distribution, lobe.masking);
+  work_->shape = shape_of(lobe.distribution, lobe.shape);
+  work_->stage = {find_fresnel_stage(fresnel.name), fresnel.parameters};
+  work_->quality = quality;
+  work_->floor_mu = std::clamp(floor_mu, least_mu, 0.5);
+}
+
+LobeIntegrals::~LobeIntegrals() = default;
+LobeIntegrals::LobeIntegrals(LobeIntegrals&&) noexcept = default;
+LobeIntegrals& LobeIntegrals::operator=(LobeIntegrals&&) noexcept = default;
+
+LobeTerms LobeIntegrals::at(const LobePoint& point) const {
+  QuadratureOrder order = order_of(work_->lobe, work_->quality, point.mu);
+  // An anisotropic lobe changes faster over the azimuth.
+  const double aspect = std::max(point.alpha_x / point.alpha_y, point.alpha_y / point.alpha_x);
+  if (aspect > 1) order.azimuths *= 1 + static_cast<int>(std::min(aspect, 16.0) / 2);
+  return work_->integrate(make_view_rule(point.mu, order.azimuths), point, order.slopes);
+}
+
+std::vector<LobeTerms> LobeIntegrals::grid(std::span<const double> mus,
+                                           std::span<const double> alphas) {
+  constexpr size_t worth_a_field = 4000;
+  const bool inside =
+      std::all_of(mus.begin(), mus.end(), [&](double mu) { return mu >= work_->floor_mu; });
+  if (mus.size() * alphas.size() < worth_a_field || !inside || work_->field_failed) {
+    return work_->direct(mus, alphas, work_->quality);
+  }
+  if (!work_->field) work_->build_field();
+  if (work_->field_failed) return work_->direct(mus, alphas, work_->quality);
+  std::vector<LobeTerms> terms = work_->field->grid(mus, alphas);
+  work_->replace_mirrors(mus, alphas, terms);
+  return terms;
+}
+
+LobeTerms LobeIntegrals::average(double alpha) const {
+  const Rule& rule = unit_rule(64);
+  const double width = std::max(alpha, min_alpha);
+  const double reach = std::asinh(1 / width);
+  LobeTerms average;
+  for (size_t j = 0; j < rule.nodes.size(); ++j) {
+    const double x = reach * rule.nodes[j];
+    const double mu = width * std::sinh(x);
+    const double weight = 2 * mu * width * std::cosh(x) * reach * rule.weights[j];
+    const LobeTerms terms = at({mu, alpha, alpha, 0});
+    average.scale += weight * terms.scale;
+    average.bias += weight * terms.bias;
+    average.edge += weight * terms.edge;
+  }
+  return average;
+}
+
+std::vector<SplitSumTerms<double>> integrate_grid(const Lobe& lobe, std::span<const double> mus,
+                                                  std::span<const double> alphas, Quality quality) {
+  const double floor_mu = mus.empty() ? 1 : *std::min_element(mus.begin(), mus.end());
+  LobeIntegrals integrals(lobe, {}, quality, floor_mu);
+  std::vector<SplitSumTerms<double>> terms;
+  terms.reserve(mus.size() * alphas.size());
+  for (const LobeTerms& one : integrals.grid(mus, alphas)) terms.push_back({one.scale, one.bias});
   return terms;
 }
 

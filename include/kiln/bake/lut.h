@@ -2,22 +2,42 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace kiln {
 
-/// The channels of a table at one point, to about 1e-11.
-/// @valid mu in [1e-4, 1], roughness in [0, 1]
-/// @error Fault::Usage for an unknown table or a point outside the domain
-std::vector<double> integrate_at(const std::string& table, double mu, double roughness);
+/// Parameters of the bake `lut` as a user writes them: table, preset, axes, ...
+using LutWords = std::vector<std::pair<std::string, std::string>>;
 
-struct TableSummary {
-  std::string name, summary;
-  std::vector<std::string> channels;  ///< "scale: multiplies F0", ...
+struct PointValue {
+  std::string channel;
+  double value = 0;
 };
-std::vector<TableSummary> list_tables();
 
-/// What each channel of a table is.
-std::vector<std::string> table_channels(const std::string& table);
+/// The channels of a table at one point, to about 1e-11.
+/// @param point  one coordinate for each axis of the table, in their order
+/// @error Fault::Usage for unknown words or a point outside the domain
+std::vector<PointValue> integrate_at(const LutWords& words, const std::vector<double>& point);
+
+/// The quantities of a table's axes, in their order: "mu", "roughness".
+std::vector<std::string> lut_axes(const LutWords& words);
+
+/// Code that looks up exactly this table, with five points to check it by.
+/// @param language  "glsl", "hlsl" or "cpp"
+/// @param file      name of the table's file, for the comment
+/// @param rgbd      stored as RGBD
+std::string lut_snippet(const LutWords& words, const std::string& language, const std::string& file,
+                        bool rgbd);
+
+/// Something with a name, what it is, and facts: "source", "Karis 2013".
+struct NamedText {
+  std::string name, summary;
+  std::vector<std::pair<std::string, std::string>> facts;
+};
+std::vector<NamedText> list_tables();
+std::vector<NamedText> list_lut_axes();
+std::vector<NamedText> list_lut_channels();
+std::vector<NamedText> list_lut_presets();
 
 }  // namespace kiln

@@ -40,6 +40,9 @@ const std::vector<BlockFacts>& all_blocks();
 /// @error Fault::Internal when there is none of that name
 const BlockFacts& block_named(const std::string& name);
 
+/// The words of the key `type`, in the order of PixelType.
+std::vector<std::string> pixel_type_words();
+
 /// The keys that an entry of `bakes` may hold: the runner's own and the parameters of the bake.
 BlockFacts bake_block(const BakeFacts& bake);
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kiln/table/axis.h"
+#include "kiln/table/lobe.h"
+
+namespace kiln {
+
+/// Which models a table integrates.
+struct TableModels {
+  Lobe lobe;
+  FresnelChoice fresnel;
+};
+
+/// Where a table's entries lie: coordinates of each quantity, ascending or not.
+struct TableGrid {
+  std::array<std::vector<double>, 7> coordinates;  ///< by Quantity; empty: not an axis
+
+  const std::vector<double>& of(Quantity quantity) const {
+    return coordinates[static_cast<size_t>(quantity)];
+  }
+  std::vector<double>& of(Quantity quantity) { return coordinates[static_cast<size_t>(quantity)]; }
+};
+
+/// Lobes made once for all channels and grids that ask for them.
+class LobeCache {
+ public:
+  LobeCache(Quality quality, double floor_mu) : quality_(quality), floor_mu_(floor_mu) {}
+  LobeIntegrals& of(const Lobe& lobe, const FresnelChoice& fresnel);
+  Quality quality() const { return quality_; }
+
+ private:
+  Quality quality_;
+  double floor_mu_;
+  std::map<std::string, LobeIntegrals> lobes_;
+};
+
+/// What a channel is filled from.
+struct TableContext {
+  const TableModels& models;
+  const TableGrid& grid;
+  LobeCache& lobes;
+};
+
+/// A function of some quantities that tables can hold. A new one is one line on a list.
+struct ChannelFacts {
+  std::string name;                  ///< "scale"
+  std::vector<std::string> aliases;  ///< "A"
+  std::string meaning;               ///< "scale: multiplies F0"
+  std::vector<Quantity> over;        ///< what it depends on
+  /// Values on the grid; the first quantity of `over` runs fastest.
+  std::vector<double> (*fill)(TableContext&) = nullptr;
+};
+
+/// Lobe integrals and diffuse albedos, then the channels of special tables.
+const std::vector<ChannelFacts>& all_channels();
+
+/// @error Fault::Usage, naming the nearest known channel
+const ChannelFacts& find_channel(const std::string& name);
+
+/// Alpha for a perceptual roughness: its square, at least 1e-4; 0 for roughness 0, which stands for
+/// the limit of a mirror.
+double table_alpha(double roughness);
+
+}  // namespace kiln

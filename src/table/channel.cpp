@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/table/channel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "channel_lists.h"
+#include "kiln/brdf/roughness.h"
+#include "kiln/core/error.h"
+#include "kiln/core/names.h"
+
+namespace kiln {
+namespace {
+
+std::vector<ChannelFacts> make_list() {
+  std::vector<ChannelFacts> list;
+  add_lobe_channels(list);
+  add_diffuse_channels(list);
+  return list;
+}
+
+std::string key_of(const Lobe& lobe, const FresnelChoice& fresnel) {
+  const FresnelChannel<double>& p = fresnel.parameters;
+  return fmt::format("{} {} {} {} {} {} {} {} {}", lobe.distribution, lobe.masking, lobe.shape,
+                     fresnel.name, p.f0, p.f90, p.f82, p.ior, p.extinction);
+}
+
+}  // namespace
+
+LobeIntegrals& LobeCache::of(const Lobe& lobe, const FresnelChoice& fresnel) {
+  const std::string key = key_of(lobe, fresnel);
+  const auto found = lobes_.find(key);
+  if (found != lobes_.end()) return found->second;
+  return lobes_.emplace(key, LobeIntegrals(lobe, fresnel, quality_, floor_mu_)).first->second;
+}
+
+const std::vector<ChannelFacts>& all_channels() {
+  static const std::vector<ChannelFacts> channels = make_list();
+  return channels;
+}
+
+const ChannelFacts& find_channel(const std::string& name) {
+  std::vector<std::string> known;
+  for (const ChannelFacts& channel : all_channels()) {
+    const bool alias =
+        std::count(channel.aliases.begin(), channel.aliases.end(), kebab(name)) > 0;
+    if (alias || channel.name == kebab(name)) return channel;
+    known.push_back(channel.name);
+  }
+  throw Error(Fault::Usage, unknown_name("channel", name, known));
+}
+
+double table_alpha(double roughness) { return roughness <= 0 ? 0 : to_alpha(roughness); }
+
+}  // namespace kiln

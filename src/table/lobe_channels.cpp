@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "channel_lists.h"
+#include "kiln/parallel/rows.h"
+
+namespace kiln {
+namespace {
+
+using enum Quantity;
+
+std::vector<double> alphas_of(const TableGrid& grid) {
+  std::vector<double> alphas;
+  alphas.reserve(grid.of(Roughness).size());
+  for (const double roughness : grid.of(Roughness)) alphas.push_back(table_alpha(roughness));
+  return alphas;
+}
+
+template <class Pick>
+std::vector<double> fill_from(TableContext& context, const Lobe& lobe, const FresnelChoice& fresnel,
+                              Pick&& pick) {
+  const auto terms =
+      context.lobes.of(lobe, fresnel).grid(context.grid.of(Mu), alphas_of(context.grid));
+  std::vector<double> values;
+  values.reserve(terms.size());
+  for (const LobeTerms& one : terms) values.push_back(pick(one));
+  return values;
+}
+
+template <auto Pick>
+std::vector<double> fill(TableContext& context) {
+  return fill_from(context, context.models.lobe, {}, Pick);
+}
+
+// Averages cost 64 integrals each and need no field.
+template <auto Pick>
+std::vector<double> fill_average(TableContext& context) {
+  const std::vector<double> alphas = alphas_of(context.grid);
+  const LobeIntegrals& lobe = context.lobes.of(context.models.lobe, {});
+  std::vector<double> values(alphas.size());
+  for_rows(static_cast<int>(alphas.size()),
+           [&](int j) { values[j] = Pick(lobe.average(alphas[j])); });
+  return values;
+}
+
+double scale_of(const LobeTerms& terms) { return terms.scale; }
+double bias_of(const LobeTerms& terms) { return terms.bias; }
+double edge_of(const LobeTerms& terms) { return terms.edge; }
+double total_of(const LobeTerms& terms) { return terms.total(); }
+double missing_of(const LobeTerms& terms) { return std::max(1 - terms.total(), 0.0); }
+
+std::vector<double> fill_reflectance(TableContext& context) {
+  FresnelChoice fresnel = context.models.fresnel;
+  if (fresnel.name.empty()) fresnel.name = "schlick";
+  return fill_from(context, context.models.lobe, fresnel, scale_of);
+}
+
+// Sheen keeps the lobe it is given if that is a cloth's, and is Charlie's elsewhere.
+Lobe sheen_lobe(const TableModels& models, const char* masking) {
+  if (models.lobe.distribution == "charlie") return models.lobe;
+  return {"charlie", masking, 0};
+}
+
+std::vector<double> fill_sheen(TableContext& context) {
+  return fill_from(context, sheen_lobe(context.models, "neubelt"), {}, total_of);
+}
+
+std::vector<double> fill_sheen_clamped(TableContext& context) {
+  return fill_from(context, {"charlie", "neubelt-clamped", 0}, {}, total_of);
+}
+
+template <int Value>
+std::vector<double> fill_constant(TableContext&) {
+  return {static_cast<double>(Value)};
+}
+
+// The dielectric of each F0, on [f0][roughness][mu].
+std::vector<double> fill_dielectric(TableContext& context) {
+  std::vector<double> values;
+  for (const double f0 : context.grid.of(F0)) {
+    const double root = std::sqrt(std::clamp(f0, 0.0, 0.9999));
+    FresnelChoice fresnel{"dielectric", {}};
+    fresnel.parameters.ior = (1 + root) / (1 - root);
+    const auto slice = fill_from(context, context.models.lobe, fresnel, scale_of);
+    values.insert(values.end(), slice.begin(), slice.end());
+  }
+  return values;
+}
+
+// Widths along and across for an anisotropy, [anisotropy][roughness].
+struct Widths {
+  double x, y;
+};
+Widths widths_of(double roughness, double anisotropy) {
+  const double aspect = std::sqrt(1 - 0.9 * std::clamp(anisotropy, 0.0, 1.0));
+  const double alpha = std::max(table_alpha(roughness), 1e-4);
+  return {std::clamp(alpha / aspect, 1e-4, 1.0), std::clamp(alpha * aspect, 1e-4, 1.0)};
+}
+
+// Fourier terms of E over the azimuth, which is even and has the period pi: 8 equal steps of a half
+// circle are 5 different ones, and exact to the eighth harmonic.
+template <int Harmonic>
+std::vector<double> fill_azimuth(TableContext& context) {
+  constexpr int steps = 8;
+  const auto& mus = context.grid.of(Mu);
+  const auto& roughnesses = context.grid.of(Roughness);
+  const auto& anisotropies = context.grid.of(Anisotropy);
+  const LobeIntegrals& lobe = context.lobes.of(context.models.lobe, {});
+  std::vector<double> values(mus.size() * roughnesses.size() * anisotropies.size());
+  for_rows(static_cast<int>(values.size() / mus.size()), [&](int row) {
+    const Widths widths = widths_of(roughnesses[row % roughnesses.size()],
+                                    anisotropies[row / roughnesses.size()]);
+    for (size_t i = 0; i < mus.size(); ++i) {
+      double sum = 0;
+      for (int k = 0; k <= steps / 2; ++k) {
+        const double azimuth = pi * k / steps;
+        const double twice = k == 0 || k == steps / 2 ? 1 : 2;
+        sum += twice * std::cos(Harmonic * azimuth) *
+               lobe.at({mus[i], widths.x, widths.y, azimuth}).total();
+      }
+      values[row * mus.size() + i] = sum * (Harmonic == 0 ? 1.0 : 2.0) / steps;
+    }
+  });
+  return values;
+}
+
+}  // namespace
+
+void add_lobe_channels(std::vector<ChannelFacts>& list) {
+  const std::vector<Quantity> plane = {Mu, Roughness};
+  const std::vector<Quantity> solid = {Mu, Roughness, Anisotropy};
+  const std::vector<ChannelFacts> mine = {
+      {"scale", {"a"}, "scale: multiplies F0", plane, fill<scale_of>},
+      {"bias", {"b", "fresnel"}, "bias: multiplies F90", plane, fill<bias_of>},
+      {"total", {"e", "albedo"}, "E: directional albedo", plane, fill<total_of>},
+      {"complement", {"1-e"}, "1 - E: what one bounce loses", plane, fill<missing_of>},
+      {"f82",
+       {},
+       "f82: INT c (1 - c)^6; times -a takes off Hoffman's edge tint",
+       plane,
+       fill<edge_of>},
+      {"reflectance",
+       {},
+       "reflectance: of the lobe with its Fresnel term",
+       plane,
+       fill_reflectance},
+      {"average", {"e-avg"}, "E_avg: average albedo", {Roughness}, fill_average<total_of>},
+      {"average-bias", {"b-avg"}, "B_avg: average bias", {Roughness}, fill_average<bias_of>},
+      {"sheen",
+       {"cloth", "charlie"},
+       "sheen: directional albedo of Charlie with Neubelt's masking; may exceed 1",
+       plane,
+       fill_sheen},
+      {"sheen-clamped",
+       {},
+       "sheen: as sheen, its visibility never above 1 per unit",
+       plane,
+       fill_sheen_clamped},
+      {"dielectric",
+       {},
+       "dielectric: reflectance of the lobe with the exact Fresnel of the index that has this F0",
+       {Mu, Roughness, F0},
+       fill_dielectric},
+      {"azimuth-mean", {}, "E: its mean over the azimuth", solid, fill_azimuth<0>},
+      {"azimuth-cos2", {}, "E: amplitude of cos(2 azimuth)", solid, fill_azimuth<2>},
+      {"azimuth-cos4", {}, "E: amplitude of cos(4 azimuth)", solid, fill_azimuth<4>},
+      {"zero", {"0"}, "0", {}, fill_constant<0>},
+      {"one", {"1"}, "1", {}, fill_constant<1>},
+  };
+  list.insert(list.end(), mine.begin(), mine.end());
+}
+
+}  // namespace kiln

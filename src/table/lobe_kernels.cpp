@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lobe_kernels.h"
+
+#include <fmt/format.h>
+
+#include "kiln/brdf/roughness.h"
+#include "kiln/core/error.h"
+#include "kiln/core/names.h"
+
+namespace kiln {
+namespace {
+
+// The sums of Schlick's terms apart: 1 - Fc, Fc and c (1 - c)^6.
+void add_terms(const PointBlock& block, const FresnelChannel<double>&, Wide* sums) {
+  for (int i = 0; i < block.count; ++i) {
+    const Wide c = block.cosine[i];
+    const Wide fc = grazing_weight(c);
+    const Wide weight = block.weight[i];
+    sums[0] = fma(weight, Wide(1.0) - fc, sums[0]);
+    sums[1] = fma(weight, fc, sums[1]);
+    sums[2] = fma(weight * fc, c * (Wide(1.0) - c), sums[2]);
+  }
+}
+
+FresnelChannel<Wide> widened(const FresnelChannel<double>& channel) {
+  return {Wide(channel.f0),        Wide(channel.f90), Wide(channel.f82),
+          Wide(channel.edge_tint), Wide(channel.ior), Wide(channel.extinction),
+          Wide(channel.dip),       Wide(channel.exponent)};
+}
+
+template <template <class> class Fresnel>
+void add_reflectance(const PointBlock& block, const FresnelChannel<double>& channel, Wide* sums) {
+  const auto fresnel = Fresnel<Wide>::make(widened(channel));
+  for (int i = 0; i < block.count; ++i) {
+    sums[0] = fma(block.weight[i], fresnel.eval(block.cosine[i]), sums[0]);
+  }
+}
+
+// One point, the mirror direction: what is left of a lobe as its width goes to 0.
+template <template <class> class Distribution, template <class> class Masking>
+void reflect_mirror(const ViewRule& view, double shape, const FresnelStage& stage, Wide* sums) {
+  const Wide width = Wide(1e-2 * min_alpha);
+  const auto distribution = Distribution<Wide>::make(width, width, Wide(shape));
+  const Vec3<Wide> wo{Wide(view.sine), Wide(0.0), Wide(view.mu)}, wi{-wo.x, wo.y, wo.z};
+  const Vec3<Wide> wm{Wide(0.0), Wide(0.0), Wide(1.0)};
+  PointBlock block;
+  block.count = 1;
+  block.weight[0] = Masking<Wide>::G2(distribution, wo, wi, wm) * Wide(1.0 / wide_lanes);
+  block.cosine[0] = Wide(view.mu);
+  stage.add(block, stage.fresnel, sums);
+}
+
+template <template <class> class Distribution, template <class> class Masking>
+LobeKernels kernels_of() {
+  const bool sheen = Distribution<Wide>::name == Charlie<Wide>::name;
+  return {integrate_lobe<Distribution, Masking>,
+          sheen ? nullptr : reflect_mirror<Distribution, Masking>};
+}
+
+}  // namespace
+
+LobeKernels find_lobe_kernels(const std::string& distribution, const std::string& masking) {
+  LobeKernels found;
+  with_lobe(kebab(distribution), kebab(masking),
+            [&]<template <class> class Distribution, template <class> class Masking>() {
+              found = kernels_of<Distribution, Masking>();
+            });
+  return found;
+}
+
+double shape_of(const std::string& distribution, double shape) {
+  for (const ModelFacts& model : all_models()) {
+    if (model.family != "distribution" || model.name != kebab(distribution)) continue;
+    for (const ModelParam& param : model.params) {
+      if (param.name != "shape") continue;
+      const double wanted = shape == 0 ? param.initial : shape;
+      if (wanted >= param.min && wanted <= param.max) return wanted;
+      throw Error(Fault::Usage, fmt::format("shape: found {}, {} takes {} to {}", shape, model.name,
+                                            param.min, param.max));
+    }
+    if (shape == 0) return 0;
+    throw Error(Fault::Usage, fmt::format("shape: {} has none", model.name));
+  }
+  throw Error(Fault::Usage,
+              unknown_name("distribution", distribution, model_names("distribution")));
+}
+
+decltype(FresnelStage::add) find_fresnel_stage(const std::string& name) {
+  if (name.empty()) return add_terms;
+  decltype(FresnelStage::add) found = nullptr;
+  Fresnels::for_each([&]<template <class> class Model>() {
+    if (Model<double>::name == kebab(name)) found = add_reflectance<Model>;
+  });
+  if (!found) throw Error(Fault::Usage, unknown_name("fresnel", name, model_names("fresnel")));
+  return found;
+}
+
+}  // namespace kiln
