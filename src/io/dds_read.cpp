@@ -109,6 +109,22 @@ std::optional<TexelFormat> masked_format(const PixelFormat& pixels) {
   return std::nullopt;
 }
 
+// What is left to OpenImageIO must be a format at all: masks without a bit are an endless loop to
+// it.
+void check_masks(const PixelFormat& pixels) {
+  const bool colors = (pixels.flags & rgb_flag) != 0;
+  const bool known_bits = pixels.bits % 8 == 0 && pixels.bits >= 8 && pixels.bits <= 32;
+  const bool some = colors || (pixels.flags & luminance_flag) != 0;
+  const bool whole = pixels.masks[0] != 0 &&
+                     (!colors || (pixels.masks[1] != 0 && pixels.masks[2] != 0)) &&
+                     ((pixels.flags & alpha_flag) == 0 || pixels.masks[3] != 0);
+  if (known_bits && some && whole) return;
+  throw Error(
+      Fault::Input,
+      fmt::format("texels of {} bits with the masks {:x} {:x} {:x} {:x} are not read", pixels.bits,
+                  pixels.masks[0], pixels.masks[1], pixels.masks[2], pixels.masks[3]));
+}
+
 // The header of DirectX 10 behind the other one.
 std::optional<TexelFormat> dx10_format(ByteCursor& cursor, std::vector<std::string>& notes) {
   const uint32_t number = cursor.u32();
@@ -131,6 +147,7 @@ std::optional<StoredTexels> dds_texels(ByteView bytes) {
   std::optional<TexelFormat> texel;
   if ((header.pixels.flags & four_cc_flag) == 0) {
     texel = masked_format(header.pixels);
+    if (!texel) check_masks(header.pixels);
   } else if (header.pixels.four_cc == "DX10") {
     texel = dx10_format(cursor, stored.notes);
   } else {

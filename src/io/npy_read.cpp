@@ -52,7 +52,7 @@ void read_description(std::string_view text, Header& header) {
   const std::string_view type = ordered ? name.substr(1) : "";
   if (std::find(std::begin(known), std::end(known), type) == std::end(known)) {
     refuse(fmt::format("numbers of type {} are not read, expected f2 f4 f8 u1 u2 u4 u8 i1 i2 i4 i8",
-                       quoted));
+                       quoted.substr(0, end == std::string_view::npos ? end : end + 1)));
   }
   header.kind = type[0];
   header.bytes = static_cast<size_t>(type[1] - '0');

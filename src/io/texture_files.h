@@ -9,7 +9,7 @@
 namespace kiln::io {
 
 /// The first face and level of a DDS, of a legacy header or one of DirectX 10; nothing where its
-/// texels are block-compressed or of masks that are no whole bytes.
+/// texels are block-compressed or of masks that are no whole bytes, which OpenImageIO reads.
 /// @error  Fault::Input, without the path
 /// @source Microsoft, "DDS_HEADER", "DDS_PIXELFORMAT", "DDS_HEADER_DXT10", "D3DFORMAT"
 std::optional<StoredTexels> dds_texels(ByteView bytes);
