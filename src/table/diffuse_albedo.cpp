@@ -29,7 +29,8 @@ Azimuths make_azimuths(const Rule& rule) {
   azimuths.sine.assign(padded, 0.0);
   azimuths.weight.assign(padded, 0.0);
   for (size_t i = 0; i < 2 * n; ++i) {
-    const double phi = (static_cast<double>(i / n) + rule.nodes[i % n]) * pi / 2;
+    const double start = i < n ? 0 : pi / 2;
+    const double phi = start + rule.nodes[i % n] * pi / 2;
     azimuths.cosine[i] = std::cos(phi);
     azimuths.sine[i] = std::sin(phi);
     azimuths.weight[i] = pi * rule.weights[i % n];

@@ -71,9 +71,10 @@ double mean_of_samples(const Glass& glass, const Vec3<double>& wo, const Quantit
   constexpr int n = 256, choices = 64;
   double sum = 0;
   for (int i = 0; i < n * n; ++i) {
-    const double x = (i % n + 0.5) / n, y = (i / n + 0.5) / n;
+    const int row = i / n;
+    const double x = (i % n + 0.5) / n, y = (row + 0.5) / n;
     // Every column of the grid takes another choice of side; 37 is prime to 64.
-    const double z = ((i * 37 + i / n * 11) % choices + 0.5) / choices;
+    const double z = ((i * 37 + row * 11) % choices + 0.5) / choices;
     sum += quantity(glass.sample(wo, {x, y, z}, Transport::Importance));
   }
   return sum / (n * n);
@@ -106,7 +107,8 @@ TEST(RoughDielectric, SamplesStateTheirDensityAndWeight) {
   const Glass glass{0.2, 0.3, 1.5};
   for (const auto& wo : both_sides(7)) {
     for (int i = 0; i < 64; ++i) {
-      const Vec3<double> u{(i % 4 + 0.5) / 4, (i / 4 % 4 + 0.5) / 4, (i / 16 + 0.5) / 4};
+      const int row = i / 4 % 4, layer = i / 16;
+      const Vec3<double> u{(i % 4 + 0.5) / 4, (row + 0.5) / 4, (layer + 0.5) / 4};
       const auto drawn = glass.sample(wo, u);
       if (drawn.density == 0) continue;
       EXPECT_NEAR(glass.density(wo, drawn.wi) / drawn.density, 1, 1e-8);
