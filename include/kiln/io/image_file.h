@@ -88,7 +88,7 @@ enum class AlphaStorage {
 /// What OpenEXR files are packed with.
 enum class Packing {
   Zip,   ///< small: what pictures want
-  Fast,  ///< not packed at all, some ten times faster: tables, whose noise in the last bits stays
+  Fast,  ///< not packed at all, several times faster to write: what tables want
 };
 
 /// What the numbers of a table stand for, in formats that are read by people.
