@@ -57,10 +57,12 @@ double mass_of(const SlopeCells& cells, const Density& density, const Limit& lim
   const double end = std::min(to, limit(phi));
   const int panels = row == rows - 1 ? 6 : 1;
   double sum = 0;
-  for (int k = 0; k < panels * 8 && end > from; ++k) {
-    const double x = from + (end - from) * (k / 8 + rule.nodes[k % 8]) / panels;
-    const Vec3<double> wm = cells.normal(x, phi);
-    sum += rule.weights[k % 8] * density(wm) * cells.solid_angle(wm, x);
+  for (int panel = 0; panel < panels && end > from; ++panel) {
+    for (size_t i = 0; i < rule.nodes.size(); ++i) {
+      const double x = from + (end - from) * (panel + rule.nodes[i]) / panels;
+      const Vec3<double> wm = cells.normal(x, phi);
+      sum += rule.weights[i] * density(wm) * cells.solid_angle(wm, x);
+    }
   }
   return sum * std::max(end - from, 0.0) / panels;
 }
