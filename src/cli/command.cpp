@@ -131,8 +131,8 @@ int run_one(const Verb& verb, std::vector<std::string> arguments) {
 }  // namespace
 
 std::vector<Verb> all_verbs() {
-  return {run_verb(),     lut_verb(),  env_verb(), preview_verb(),
-          inspect_verb(), diff_verb(), list_verb()};
+  return {run_verb(),     lut_verb(),     verify_verb(), env_verb(),
+          preview_verb(), inspect_verb(), diff_verb(),   list_verb()};
 }
 
 int run_command(std::vector<std::string> arguments) {

@@ -31,6 +31,7 @@ struct Verb {
 
 Verb run_verb();
 Verb lut_verb();
+Verb verify_verb();
 Verb env_verb();
 Verb preview_verb();
 Verb inspect_verb();

@@ -57,7 +57,7 @@ std::vector<TableFacts> make_list() {
       {"diffuse",
        "directional albedo of diffuse models",
        {"mu", "roughness"},
-       {"burley", "eon"},
+       {"diffuse-burley", "diffuse-eon"},
        ggx,
        "Burley 2012; Portsmouth, Kutz and Hill 2025"},
   };

@@ -51,9 +51,9 @@ struct ModelList {
 };
 
 using Distributions = ModelList<Ggx, Beckmann, Phong, Gtr, StudentT, Charlie>;
-using Maskings =
-    ModelList<SmithCorrelated, SmithSeparable, VCavity, Kelemen, Implicit, Neumann, SchlickBeckmann,
-              SchlickGgx, SchlickGgxDirect, HammonMasking, UnrealJoint, Neubelt, EstevezKulla>;
+using Maskings = ModelList<SmithCorrelated, SmithSeparable, VCavity, Kelemen, Implicit, Neumann,
+                           SchlickBeckmann, SchlickGgx, SchlickGgxDirect, HammonMasking,
+                           UnrealJoint, Neubelt, NeubeltClamped, EstevezKulla>;
 using Fresnels =
     ModelList<Schlick, Dielectric, Conductor, F82Tint, HoffmanF82, Gulbrandsen, Lazanyi>;
 using Diffuses = ModelList<Lambert, Eon, Burley, OrenNayar, Fujii, HammonDiffuse>;

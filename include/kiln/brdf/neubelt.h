@@ -39,4 +39,30 @@ struct Neubelt {
   }
 };
 
+/// Neubelt's masking with its visibility never above 1, as several sheen shaders have it.
+/// @source Neubelt and Pettineo 2013; the clamp from the glTF sample viewer's sheen
+template <class F>
+struct NeubeltClamped {
+  static constexpr std::string_view name = "neubelt-clamped";
+  static constexpr std::string_view summary = "masking of cloth, its visibility at most 1";
+  static constexpr std::string_view source = "Neubelt & Pettineo 2013; glTF sample viewer";
+  template <class Distribution>
+  static constexpr bool fits = true;
+  static constexpr bool one_sided = false;
+
+  template <class Distribution>
+  static F G2(const Distribution& distribution, const Vec3<F>& wo, const Vec3<F>& wi,
+              const Vec3<F>& wm) {
+    const F plain = Neubelt<F>::G2(distribution, wo, wi, wm);
+    return min(plain, F(4) * max(wo.z, F(0)) * max(wi.z, F(0)));
+  }
+
+  /// @valid max(mu_o, mu_i) > 0
+  template <class Distribution>
+  static F visibility(const Distribution& distribution, const Vec3<F>& wo, const Vec3<F>& wi,
+                      const Vec3<F>& wm) {
+    return min(Neubelt<F>::visibility(distribution, wo, wi, wm), F(1));
+  }
+};
+
 }  // namespace kiln
