@@ -176,6 +176,17 @@ Attributes describe_file(const Settings& settings, const Lut& lut) {
                                   lobe.masking, fresnel_text(lut.recipe))}};
   if (!settings.preset.empty()) attributes.emplace_back("kiln:preset", settings.preset);
   describe_axes(lut, attributes);
+  const std::vector<std::string> names = plane_names(lut.entries.size());
+  for (size_t c = 0; c < names.size(); ++c) {
+    attributes.emplace_back("kiln:channel_" + names[c],
+                            find_channel(lut.recipe.channels[c]).meaning);
+  }
+  if (lut.fit_error > 0) {
+    attributes.emplace_back("kiln:fit_error",
+                            fmt::format("{:.3g}, mean share of light that the fit sends elsewhere",
+                                        lut.fit_error));
+    return attributes;
+  }
   attributes.emplace_back("kiln:entry_error",
                           fmt::format("{:.3g}, greatest of {} entries spread evenly, against a "
                                       "higher order",
@@ -185,11 +196,6 @@ Attributes describe_file(const Settings& settings, const Lut& lut) {
       fmt::format("{:.3g} for mu in [0.001,1], roughness in [0.01,1]; {:.3g} for mu in [0.05,1], "
                   "roughness in [0.1,1]; linear, clamped",
                   lut.lookup_error, lut.lookup_error_inner));
-  const std::vector<std::string> names = plane_names(lut.entries.size());
-  for (size_t c = 0; c < names.size(); ++c) {
-    attributes.emplace_back("kiln:channel_" + names[c],
-                            find_channel(lut.recipe.channels[c]).meaning);
-  }
   return attributes;
 }
 
@@ -241,6 +247,7 @@ Baked LutBake::bake(const Settings& settings, const Ingredients&) {
   baked.figures = {{"entry error", lut.entry_error},
                    {"lookup error", lut.lookup_error},
                    {"lookup error, mu >= 0.05 and roughness >= 0.1", lut.lookup_error_inner}};
+  if (lut.fit_error > 0) baked.figures = {{"fit error, mean share of light elsewhere", lut.fit_error}};
   if (!settings.preset.empty()) baked.notes = find_lut_preset(settings.preset).cautions;
   baked.artifacts.push_back(make_artifact(settings, lut));
   return baked;

@@ -17,6 +17,10 @@ std::vector<ChannelFacts> make_list() {
   std::vector<ChannelFacts> list;
   add_lobe_channels(list);
   add_diffuse_channels(list);
+  add_anisotropic_channels(list);
+  add_glass_channels(list);
+  add_ltc_channels(list);
+  add_skin_channels(list);
   return list;
 }
 

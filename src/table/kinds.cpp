@@ -47,19 +47,42 @@ std::vector<TableFacts> make_list() {
        {"mu", "roughness", "fourth-root-f0"},
        {"dielectric"},
        ggx,
-       "Walter et al. 2007"},
+       "Walter et al. 2007",
+       {64, 64}},
       {"anisotropic",
        "directional albedo of an anisotropic lobe as Fourier terms of the azimuth",
        {"mu", "roughness", "anisotropy"},
        {"azimuth-mean", "azimuth-cos2", "azimuth-cos4"},
        ggx,
-       "Burley 2012 (aspect = sqrt(1 - 0.9 anisotropy)); Heitz 2014"},
+       "Burley 2012 (aspect = sqrt(1 - 0.9 anisotropy)); Heitz 2014",
+       {32, 32},
+       8},
       {"diffuse",
        "directional albedo of diffuse models",
        {"mu", "roughness"},
        {"diffuse-burley", "diffuse-eon"},
        ggx,
        "Burley 2012; Portsmouth, Kutz and Hill 2025"},
+      {"glass",
+       "energy that a rough dielectric reflects and lets through, from both sides",
+       {"mu", "roughness", "ior"},
+       {"enter-reflected", "enter-transmitted", "leave-reflected", "leave-transmitted"},
+       ggx,
+       "Walter et al. 2007",
+       {16, 16}},
+      {"ltc",
+       "linearly transformed cosines: the inverse matrix that fits the lobe",
+       {"roughness", "sqrt-one-minus-mu"},
+       {"ltc-m11", "ltc-m31", "ltc-m13", "ltc-m33"},
+       ggx,
+       "Heitz, Dupuy, Hill and Neubelt 2016",
+       {64, 64}},
+      {"skin",
+       "irradiance of curved skin, scattering below the surface",
+       {"cosine", "curvature"},
+       {"skin-red", "skin-green", "skin-blue"},
+       ggx,
+       "Penner 2011; d'Eon and Luebke 2007"},
   };
 }
 
@@ -132,6 +155,8 @@ TableRecipe recipe_of(const TableFacts& facts) {
   TableRecipe recipe;
   recipe.table = facts.name;
   recipe.models.lobe = facts.lobe;
+  recipe.size = facts.size;
+  recipe.depth = facts.depth;
   return recipe;
 }
 

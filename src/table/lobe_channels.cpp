@@ -88,48 +88,10 @@ std::vector<double> fill_dielectric(TableContext& context) {
   return values;
 }
 
-// Widths along and across for an anisotropy, [anisotropy][roughness].
-struct Widths {
-  double x, y;
-};
-Widths widths_of(double roughness, double anisotropy) {
-  const double aspect = std::sqrt(1 - 0.9 * std::clamp(anisotropy, 0.0, 1.0));
-  const double alpha = std::max(table_alpha(roughness), 1e-4);
-  return {std::clamp(alpha / aspect, 1e-4, 1.0), std::clamp(alpha * aspect, 1e-4, 1.0)};
-}
-
-// Fourier terms of E over the azimuth, which is even and has the period pi: 8 equal steps of a half
-// circle are 5 different ones, and exact to the eighth harmonic.
-template <int Harmonic>
-std::vector<double> fill_azimuth(TableContext& context) {
-  constexpr int steps = 8;
-  const auto& mus = context.grid.of(Mu);
-  const auto& roughnesses = context.grid.of(Roughness);
-  const auto& anisotropies = context.grid.of(Anisotropy);
-  const LobeIntegrals& lobe = context.lobes.of(context.models.lobe, {});
-  std::vector<double> values(mus.size() * roughnesses.size() * anisotropies.size());
-  for_rows(static_cast<int>(values.size() / mus.size()), [&](int row) {
-    const Widths widths = widths_of(roughnesses[row % roughnesses.size()],
-                                    anisotropies[row / roughnesses.size()]);
-    for (size_t i = 0; i < mus.size(); ++i) {
-      double sum = 0;
-      for (int k = 0; k <= steps / 2; ++k) {
-        const double azimuth = pi * k / steps;
-        const double twice = k == 0 || k == steps / 2 ? 1 : 2;
-        sum += twice * std::cos(Harmonic * azimuth) *
-               lobe.at({mus[i], widths.x, widths.y, azimuth}).total();
-      }
-      values[row * mus.size() + i] = sum * (Harmonic == 0 ? 1.0 : 2.0) / steps;
-    }
-  });
-  return values;
-}
-
 }  // namespace
 
 void add_lobe_channels(std::vector<ChannelFacts>& list) {
   const std::vector<Quantity> plane = {Mu, Roughness};
-  const std::vector<Quantity> solid = {Mu, Roughness, Anisotropy};
   const std::vector<ChannelFacts> mine = {
       {"scale", {"a"}, "scale: multiplies F0", plane, fill<scale_of>},
       {"bias", {"b", "fresnel"}, "bias: multiplies F90", plane, fill<bias_of>},
@@ -162,9 +124,6 @@ void add_lobe_channels(std::vector<ChannelFacts>& list) {
        "dielectric: reflectance of the lobe with the exact Fresnel of the index that has this F0",
        {Mu, Roughness, F0},
        fill_dielectric},
-      {"azimuth-mean", {}, "E: its mean over the azimuth", solid, fill_azimuth<0>},
-      {"azimuth-cos2", {}, "E: amplitude of cos(2 azimuth)", solid, fill_azimuth<2>},
-      {"azimuth-cos4", {}, "E: amplitude of cos(4 azimuth)", solid, fill_azimuth<4>},
       {"zero", {"0"}, "0", {}, fill_constant<0>},
       {"one", {"1"}, "1", {}, fill_constant<1>},
   };

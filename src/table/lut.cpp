@@ -61,14 +61,20 @@ std::vector<double> spread(const std::vector<double>& values, const ChannelFacts
   return placed;
 }
 
-Entries fill_lattice(const TableRecipe& recipe, const Lattice& lattice, LobeCache& lobes) {
+// Fits have no truth to be compared with: without them, their channels stay empty.
+enum class Fits { With, Without };
+
+Entries fill_lattice(const TableRecipe& recipe, const Lattice& lattice, LobeCache& lobes,
+                     Fits fits) {
   const TableGrid grid = grid_of(lattice);
   TableContext context{recipe.models, grid, lobes};
   Entries entries;
   entries.reserve(recipe.channels.size());
   for (const std::string& name : recipe.channels) {
     const ChannelFacts& channel = find_channel(name);
-    entries.push_back(spread(channel.fill(context), channel, lattice));
+    const bool wanted = fits == Fits::With || !channel.fitted;
+    entries.push_back(wanted ? spread(channel.fill(context), channel, lattice)
+                             : std::vector<double>{});
   }
   return entries;
 }
@@ -125,7 +131,7 @@ void check_entries(Lut& lut, double floor_mu) {
     for (const int i : indices[a]) lattice.positions[a].push_back(lut.axes[a].coordinates[i]);
   }
   LobeCache finer_lobes(finer(quality_of(lut.recipe)), floor_mu);
-  const Entries truth = fill_lattice(lut.recipe, lattice, finer_lobes);
+  const Entries truth = fill_lattice(lut.recipe, lattice, finer_lobes, Fits::Without);
   lut.entries_checked = static_cast<int>(lattice.count());
   for (size_t i = 0; i < lattice.count(); ++i) {
     size_t rest = i, at = 0, step = 1;
@@ -135,6 +141,7 @@ void check_entries(Lut& lut, double floor_mu) {
       step *= lut.axes[a].count;
     }
     for (size_t c = 0; c < truth.size(); ++c) {
+      if (truth[c].empty()) continue;
       lut.entry_error = std::max(lut.entry_error, std::abs(lut.entries[c][at] - truth[c][i]));
     }
   }
@@ -171,7 +178,7 @@ void check_lookups(Lut& lut, LobeCache& lobes) {
   for (size_t a = 0; a < lut.axes.size(); ++a) {
     lattice.positions[a] = probes_along(lut.axes[a].mapping, count);
   }
-  const Entries truth = fill_lattice(lut.recipe, lattice, lobes);
+  const Entries truth = fill_lattice(lut.recipe, lattice, lobes, Fits::Without);
   std::vector<double> point(lut.axes.size());
   for (size_t i = 0; i < lattice.count(); ++i) {
     size_t rest = i;
@@ -180,6 +187,7 @@ void check_lookups(Lut& lut, LobeCache& lobes) {
       rest /= lattice.positions[a].size();
     }
     for (size_t c = 0; c < truth.size(); ++c) {
+      if (truth[c].empty()) continue;
       const double error = std::abs(look_up(lut, c, point) - truth[c][i]);
       lut.lookup_error = std::max(lut.lookup_error, error);
       if (is_inner(lattice, point)) {
@@ -187,6 +195,26 @@ void check_lookups(Lut& lut, LobeCache& lobes) {
       }
     }
   }
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+// Where entries are fitted, how well they fit is found beside them.
+void fill_entries(Lut& lut, LobeCache& lobes) {
+  const auto& channels = lut.recipe.channels;
+  const bool fitted = std::any_of(channels.begin(), channels.end(), [](const std::string& name) {
+    return find_channel(name).fitted;
+  });
+  TableRecipe wanted = lut.recipe;
+  if (fitted) wanted.channels.emplace_back("ltc-error");
+  lut.entries = fill_lattice(wanted, lattice_of(lut.axes), lobes, Fits::With);
+  if (!fitted) return;
+  lut.fit_error = mean_of(lut.entries.back());
+  lut.entries.pop_back();
 }
 
 double least_mu_of(const std::vector<TableAxis>& axes) {
@@ -221,7 +249,7 @@ Lut build_lut(const TableRecipe& recipe) {
   lut.axes = make_axes(recipe);
   const double floor_mu = least_mu_of(lut.axes);
   LobeCache lobes(quality_of(recipe), floor_mu);
-  lut.entries = fill_lattice(recipe, lattice_of(lut.axes), lobes);
+  fill_entries(lut, lobes);
   check_entries(lut, floor_mu);
   check_lookups(lut, lobes);
   return lut;
@@ -257,7 +285,7 @@ std::vector<double> integrate_at(const TableRecipe& recipe, const std::vector<do
   }
   LobeCache lobes(Quality::Exact, least_mu);
   std::vector<double> values;
-  for (const auto& channel : fill_lattice(recipe, lattice, lobes)) values.push_back(channel[0]);
+  for (const auto& channel : fill_lattice(recipe, lattice, lobes, Fits::With)) values.push_back(channel[0]);
   return values;
 }
 

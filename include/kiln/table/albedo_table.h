@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kiln/brdf/energy.h"
+#include "kiln/table/lobe.h"
 
 namespace kiln {
 
@@ -15,18 +16,23 @@ struct AlbedoRow {
   F bend;              ///< c of the cosine axis
 };
 
-/// Split-sum terms of GGX with height-correlated Smith masking, tabulated for texel loops.
+/// Integrals of a specular lobe, tabulated for texel loops: its split-sum terms, and the term of
+/// c (1 - c)^6, which Fresnel models with a dip take; see LobeTerms.
 ///
 /// Nodes lie on the borders. The axes spend them where the lobe changes: roughness is v^2, and the
 /// cosine axis is u = mu (1 + r) / (mu + r), which bends at mu about r.
 ///
-/// @accuracy  bilinear lookup of E: 4e-4 for mu >= 0.02 and roughness >= 0.1; 4e-4 rms; 1.5e-2 at
-///            worst, where mu < 1e-3 and roughness < 0.02
+/// @accuracy  bilinear lookup of E, GGX with height-correlated Smith masking: 4e-4 for mu >= 0.02 and
+///            roughness >= 0.1; 4e-4 rms; 1.5e-2 at worst, where mu < 1e-3 and roughness < 0.02
 class AlbedoTable {
  public:
   static constexpr int nodes = 64;  ///< along each axis
 
-  static AlbedoTable build();
+  /// @error Fault::Usage for names that are not on the lists or do not fit each other
+  static AlbedoTable build(const Lobe& lobe = {});
+
+  /// The greatest E of the lobe at any node: above 1 it reflects more than it receives.
+  double greatest() const { return greatest_; }
 
   /// @valid roughness in [0,1]; clamped, NaN reads as 0
   template <class F>
@@ -40,8 +46,7 @@ class AlbedoTable {
   /// @valid mu in [0,1]; clamped
   template <class F>
   SplitSumTerms<F> terms(const AlbedoRow<F>& row, F mu) const {
-    const F m = clamp(mu, F(0), F(1));
-    const F x = m * (F(1) + row.bend) / (m + row.bend) * F(nodes - 1);
+    const F x = column(row, mu);
     const F whole = clamp(floor(x), F(0), F(nodes - 2));
     const F t = x - whole;
     const auto at = row.first + to_index<F>(whole) * 2;
@@ -51,6 +56,27 @@ class AlbedoTable {
     };
     return {lerp(across(0), across(2 * nodes), row.blend),
             lerp(across(1), across(2 * nodes + 1), row.blend)};
+  }
+
+  /// The integral of c (1 - c)^6.
+  /// @valid mu in [0,1]; clamped
+  template <class F>
+  F edge(const AlbedoRow<F>& row, F mu) const {
+    const F x = column(row, mu);
+    const F whole = clamp(floor(x), F(0), F(nodes - 2));
+    const F t = x - whole;
+    const auto at = (row.first >> 1) + to_index<F>(whole);
+    const float* e = edges_.data();
+    return lerp(lerp(gather(e, at), gather(e + 1, at), t),
+                lerp(gather(e + nodes, at), gather(e + nodes + 1, at), t), row.blend);
+  }
+
+  /// edge() averaged over directions.
+  template <class F>
+  F average_edge(const AlbedoRow<F>& row) const {
+    const auto at = row.first / (2 * nodes);
+    const float* e = edge_averages_.data();
+    return lerp(gather(e, at), gather(e + 1, at), row.blend);
   }
 
   /// Terms averaged over directions.
@@ -65,8 +91,17 @@ class AlbedoTable {
  private:
   static constexpr double least_bend = 1e-3;
 
-  std::vector<float> entries_;   // [roughness][mu]{scale, bias}
-  std::vector<float> averages_;  // [roughness]{scale, bias}
+  template <class F>
+  static F column(const AlbedoRow<F>& row, F mu) {
+    const F m = clamp(mu, F(0), F(1));
+    return m * (F(1) + row.bend) / (m + row.bend) * F(nodes - 1);
+  }
+
+  std::vector<float> entries_;        // [roughness][mu]{scale, bias}
+  std::vector<float> averages_;       // [roughness]{scale, bias}
+  std::vector<float> edges_;          // [roughness][mu]
+  std::vector<float> edge_averages_;  // [roughness]
+  double greatest_ = 0;
 };
 
 }  // namespace kiln

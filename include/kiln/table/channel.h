@@ -45,6 +45,8 @@ struct TableContext {
   const TableModels& models;
   const TableGrid& grid;
   LobeCache& lobes;
+  /// Values that several channels share, made by whichever comes first.
+  std::map<std::string, std::vector<std::vector<double>>> shared = {};
 };
 
 /// A function of some quantities that tables can hold. A new one is one line on a list.
@@ -55,6 +57,8 @@ struct ChannelFacts {
   std::vector<Quantity> over;        ///< what it depends on
   /// Values on the grid; the first quantity of `over` runs fastest.
   std::vector<double> (*fill)(TableContext&) = nullptr;
+  /// A fit, not an integral: there is no truth to compare it with, only how well it fits.
+  bool fitted = false;
 };
 
 /// Lobe integrals and diffuse albedos, then the channels of special tables.

@@ -18,6 +18,8 @@ struct TableFacts {
   std::vector<std::string> channels;  ///< what it holds
   Lobe lobe = {};
   std::string source;
+  Size size{128, 128};
+  int depth = 16;  ///< of tables with a third axis
 };
 
 const std::vector<TableFacts>& all_tables();
@@ -66,6 +68,7 @@ struct Lut {
   std::vector<std::vector<double>> entries;  ///< [channel][z][y][x]
   double entry_error = 0;  ///< greatest |entry - higher order|, before encoding
   int entries_checked = 0;
+  double fit_error = 0;     ///< mean share of light that a fit sends elsewhere; 0 without fits
   double lookup_error = 0;  ///< greatest of a linear lookup; mu in [1e-3,1], roughness in [0.01,1]
   double lookup_error_inner = 0;  ///< the same for mu >= 0.05 and roughness >= 0.1
 };
