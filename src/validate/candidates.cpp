@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "kiln/brdf/models.h"
 #include "kiln/math/vec.h"
+#include "kiln/table/ltc.h"
 
 namespace kiln::validate {
 namespace {
@@ -20,11 +22,42 @@ double burley_albedo(double mu, double alpha) {
   return 1 + 2 * (d / 42 + r * mu / 168 + a * (d / 2 + r * mu / 3) + a * squared);
 }
 
+bool is_common(const Lobe& lobe) {
+  static constexpr std::array<std::string_view, 6> of_ggx{"smith-correlated", "smith-separable",
+                                                          "schlick-ggx",      "schlick-ggx-direct",
+                                                          "hammon",           "unreal-joint"};
+  if (lobe.distribution == "ggx") {
+    return std::find(of_ggx.begin(), of_ggx.end(), lobe.masking) != of_ggx.end();
+  }
+  return lobe.distribution == "beckmann" && lobe.masking.starts_with("smith");
+}
+
+// Cloth has maskings of its own, and nobody tabulates lobes without a mirror's limit of 1.
+bool is_tried(const Lobe& lobe) {
+  if (lobe.distribution == "charlie") {
+    return lobe.masking.starts_with("neubelt") || lobe.masking == "estevez-kulla";
+  }
+  return lobe.masking != "kelemen" && lobe.masking != "neumann" && lobe.masking != "implicit" &&
+         !lobe.masking.starts_with("neubelt");
+}
+
+std::vector<TriedLobe> make_lobes() {
+  std::vector<TriedLobe> lobes;
+  for_each_lobe([&]<template <class> class Distribution, template <class> class Masking>() {
+    if constexpr (!requires { Distribution<double>::default_shape; }) {
+      const Lobe lobe{std::string(Distribution<double>::name), std::string(Masking<double>::name)};
+      const bool sheen = lobe.distribution == "charlie";
+      if (is_tried(lobe)) lobes.push_back({lobe, sheen, !sheen && !is_common(lobe)});
+    }
+  });
+  return lobes;
+}
+
 }  // namespace
 
-const std::vector<Model>& all_models() {
-  static const std::vector<Model> models{{{"ggx", "smith-correlated", 0}, false}};
-  return models;
+const std::vector<TriedLobe>& tried_lobes() {
+  static const std::vector<TriedLobe> lobes = make_lobes();
+  return lobes;
 }
 
 std::string_view words(Meaning meaning) {
@@ -37,8 +70,10 @@ std::string_view words(Meaning meaning) {
       return "albedo";
     case Meaning::Loss:
       return "1 - albedo";
-    case Meaning::ClampedAlbedo:
-      return "albedo clamped to 1";
+    case Meaning::Edge:
+      return "edge term c (1 - c)^6";
+    case Meaning::EdgeTimesSixteen:
+      return "16 times the edge term c (1 - c)^6";
     case Meaning::AlbedoOverTwoPi:
       return "albedo / (2 pi)";
     case Meaning::BiasOverTwoPi:
@@ -47,27 +82,33 @@ std::string_view words(Meaning meaning) {
       return "albedo of Burley's diffuse";
     case Meaning::BurleyLessHalf:
       return "albedo of Burley's diffuse - 0.5";
+    case Meaning::FabricLambert:
+      return "1 - alpha / 2, Lambert's fabric";
+    case Meaning::SphereFormFactor:
+      return "form factor of a sphere clipped by the horizon";
   }
   return "unknown";
 }
 
 std::span<const Meaning> meanings_of_specular() {
-  static constexpr std::array list{Meaning::Scale, Meaning::Bias, Meaning::Albedo, Meaning::Loss};
+  static constexpr std::array list{Meaning::Scale, Meaning::Bias, Meaning::Albedo,
+                                   Meaning::Loss,  Meaning::Edge, Meaning::EdgeTimesSixteen};
   return list;
 }
 
 std::span<const Meaning> meanings_of_sheen() {
-  static constexpr std::array list{Meaning::Albedo, Meaning::ClampedAlbedo,
-                                   Meaning::AlbedoOverTwoPi, Meaning::Bias, Meaning::BiasOverTwoPi};
+  static constexpr std::array list{Meaning::Albedo, Meaning::AlbedoOverTwoPi, Meaning::Bias,
+                                   Meaning::BiasOverTwoPi};
   return list;
 }
 
-std::span<const Meaning> meanings_of_diffuse() {
-  static constexpr std::array list{Meaning::Burley, Meaning::BurleyLessHalf};
+std::span<const Meaning> meanings_without_lobe() {
+  static constexpr std::array list{Meaning::Burley, Meaning::BurleyLessHalf, Meaning::FabricLambert,
+                                   Meaning::SphereFormFactor};
   return list;
 }
 
-double value_of(Meaning meaning, const SplitSumTerms<double>& terms, double mu, double alpha) {
+double value_of(Meaning meaning, const LobeTerms& terms, double mu, double alpha) {
   switch (meaning) {
     case Meaning::Scale:
       return terms.scale;
@@ -77,8 +118,10 @@ double value_of(Meaning meaning, const SplitSumTerms<double>& terms, double mu, 
       return terms.total();
     case Meaning::Loss:
       return 1 - terms.total();
-    case Meaning::ClampedAlbedo:
-      return std::min(terms.total(), 1.0);
+    case Meaning::Edge:
+      return terms.edge;
+    case Meaning::EdgeTimesSixteen:
+      return 16 * terms.edge;
     case Meaning::AlbedoOverTwoPi:
       return terms.total() / (2 * pi);
     case Meaning::BiasOverTwoPi:
@@ -87,6 +130,12 @@ double value_of(Meaning meaning, const SplitSumTerms<double>& terms, double mu, 
       return burley_albedo(mu, alpha);
     case Meaning::BurleyLessHalf:
       return burley_albedo(mu, alpha) - 0.5;
+    case Meaning::FabricLambert:
+      return 1 - alpha / 2;
+    // It lies beside the albedos of transformed cosines, where the axes are sqrt(alpha) for the
+    // middle of the sphere, (1 + cosine) / 2, and sqrt(1 - mu) for its squared sine.
+    case Meaning::SphereFormFactor:
+      return sphere_form_factor(2 * std::sqrt(alpha) - 1, std::sqrt(1 - mu));
   }
   return 0;
 }

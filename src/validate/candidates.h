@@ -11,34 +11,39 @@
 namespace kiln::validate {
 
 /// A lobe whose integrals a table may hold.
-struct Model {
+struct TriedLobe {
   Lobe lobe;
   bool sheen = false;  ///< matched channel by channel, beside any specular lobe
+  bool rare = false;   ///< tried where no other explains a table
 };
 
-/// Every lobe worth trying: GGX with height-correlated Smith masking first.
-const std::vector<Model>& all_models();
+/// Every lobe worth trying: GGX with height-correlated Smith masking first. Distributions with a
+/// shape of their own are left out, for with some shapes they are others on the list.
+const std::vector<TriedLobe>& tried_lobes();
 
-/// What a channel may hold of a lobe at (mu, alpha), or of a diffuse model.
+/// What a channel may hold of a lobe at (mu, alpha), or without one.
 enum class Meaning {
   Scale,
   Bias,
   Albedo,
   Loss,
-  ClampedAlbedo,
+  Edge,
+  EdgeTimesSixteen,
   AlbedoOverTwoPi,
   BiasOverTwoPi,
   Burley,
   BurleyLessHalf,
+  FabricLambert,
+  SphereFormFactor,
 };
 
 std::string_view words(Meaning meaning);
 
 std::span<const Meaning> meanings_of_specular();
 std::span<const Meaning> meanings_of_sheen();
-std::span<const Meaning> meanings_of_diffuse();
+std::span<const Meaning> meanings_without_lobe();
 
-/// @param terms  of the lobe there; not used for the diffuse ones
-double value_of(Meaning meaning, const SplitSumTerms<double>& terms, double mu, double alpha);
+/// @param terms  of the lobe there; not used for those without one
+double value_of(Meaning meaning, const LobeTerms& terms, double mu, double alpha);
 
 }  // namespace kiln::validate

@@ -15,7 +15,7 @@ std::vector<double> plane_of(Meaning meaning, const Reading& reading, const Grid
   std::vector<double> plane(count * reading.alphas.size());
   const bool diffuse = grid.terms.empty();
   for (size_t i = 0; i < plane.size(); ++i) {
-    plane[i] = value_of(meaning, diffuse ? Terms{0, 0} : grid.terms[i], reading.mus[i % count],
+    plane[i] = value_of(meaning, diffuse ? Terms{} : grid.terms[i], reading.mus[i % count],
                         reading.alphas[i / count]);
   }
   return plane;
@@ -109,7 +109,7 @@ void improve_fits(const Reading& reading, int model, const Grid& grid,
       if (fits[c].constant) continue;
       if (limits) {
         own = plane;
-        allow_limits(meaning, all_models()[model].sheen, reading, grid, reading.values[c], own);
+        allow_limits(meaning, tried_lobes()[model].sheen, reading, grid, reading.values[c], own);
       }
       const double rms = rms_between(limits ? own : plane, reading.values[c]);
       if (rms < fits[c].rms) fits[c] = {model, meaning, false, 0, rms};
@@ -123,7 +123,7 @@ std::vector<double> exact_entries(const ChannelFit& fit, const Reading& reading,
   if (fit.constant) return std::vector<double>(stored.size(), fit.level);
   std::vector<double> plane = plane_of(fit.meaning, reading, grid);
   if (has_limits(reading, fit.model)) {
-    allow_limits(fit.meaning, all_models()[fit.model].sheen, reading, grid, stored, plane);
+    allow_limits(fit.meaning, tried_lobes()[fit.model].sheen, reading, grid, stored, plane);
   }
   return plane;
 }

@@ -26,7 +26,7 @@ std::vector<double> alphas_of(const Sheet& sheet, const TableAxes& axes, const P
 
 /// What a channel holds, and how far it is from that.
 struct ChannelFit {
-  int model = -1;  ///< on all_models(); -1 for diffuse quantities and constants
+  int model = -1;  ///< on tried_lobes(); -1 for diffuse quantities and constants
   Meaning meaning = Meaning::Scale;
   bool constant = false;
   double level = 0;  ///< of a constant

@@ -26,7 +26,7 @@ std::string table_class(const std::vector<ChannelFit>& fits, bool curve) {
     if (fit.constant) continue;
     if (fit.model < 0)
       ++diffuse;
-    else if (all_models()[fit.model].sheen)
+    else if (tried_lobes()[fit.model].sheen)
       ++sheen;
     else
       ++specular;
@@ -49,8 +49,8 @@ std::vector<ChannelMatch> channel_matches(const Sheet& sheet, const Comparison& 
       match.quantity = words(fit.meaning);
       if (sheet.is_curve()) match.quantity = "average of " + match.quantity;
       if (fit.model >= 0) {
-        match.distribution = all_models()[fit.model].lobe.distribution;
-        match.masking = all_models()[fit.model].lobe.masking;
+        match.distribution = tried_lobes()[fit.model].lobe.distribution;
+        match.masking = tried_lobes()[fit.model].lobe.masking;
       }
     }
     matches.push_back(std::move(match));

@@ -32,7 +32,6 @@ const std::vector<Preset>& all_presets() {
   static const std::vector<Preset> presets{
       {"khronos", upright, {Scale, Bias}},
       {"khronos", upright, {Scale, Bias, Albedo}},
-      {"khronos", upright, {Scale, Bias, ClampedAlbedo}},
       {"filament", reversed, {Scale, Bias}},
       {"filament-multiscatter", reversed, {Bias, Albedo}},
       {"filament-cloth", reversed, {Bias, Albedo, Albedo}},
@@ -46,6 +45,7 @@ const std::vector<Preset>& all_presets() {
       {"materialx", by_alpha, {Scale, Bias, Albedo}},
       {"cycles", cycles, {Albedo}},
       {"ltc", cosines, {Albedo, Bias}},
+      {"ltc", cosines, {Albedo, Bias, SphereFormFactor}},
       {"openpbr", openpbr, {Loss}, "smith-separable"},
   };
   return presets;
@@ -56,9 +56,9 @@ bool same_meanings(const Preset& preset, const Candidate& candidate) {
   for (const ChannelFit& fit : candidate.fits) {
     if (fit.constant || fit.rms > 0.05) continue;
     meanings.push_back(fit.meaning);
-    if (fit.model < 0 || all_models()[fit.model].sheen) continue;
-    if (all_models()[fit.model].lobe.masking != preset.masking) return false;
-    if (all_models()[fit.model].lobe.distribution != "ggx") return false;
+    if (fit.model < 0 || tried_lobes()[fit.model].sheen) continue;
+    if (tried_lobes()[fit.model].lobe.masking != preset.masking) return false;
+    if (tried_lobes()[fit.model].lobe.distribution != "ggx") return false;
   }
   return meanings == preset.meanings;
 }
@@ -68,8 +68,13 @@ bool same_meanings(const Preset& preset, const Candidate& candidate) {
 std::vector<std::string> presets_like(const Sheet& sheet, const Candidate& candidate) {
   std::vector<std::string> names;
   if (sheet.is_curve()) return names;
+  // Pictures of some engines are upside down; numbers in a text begin with the row of texel (0, 0).
+  const bool text = sheet.array->stored == NumberArray::Stored::Integer ||
+                    sheet.array->stored == NumberArray::Stored::Decimal;
   for (const Preset& preset : all_presets()) {
-    if (!(preset.axes == candidate.axes) || !same_meanings(preset, candidate)) continue;
+    TableAxes axes = preset.axes;
+    if (text) axes.width_reversed = false;
+    if (!(axes == candidate.axes) || !same_meanings(preset, candidate)) continue;
     if (std::find(names.begin(), names.end(), preset.name) == names.end()) {
       names.push_back(preset.name);
     }

@@ -15,10 +15,16 @@ constexpr int coarse_entries = 12, fine_entries = 16;
 constexpr size_t kept_per_sheet = 16;
 
 // Curves hold averages over directions, tables the integrals themselves.
-Integrals integrals_for(const Sheet& sheet, const Lobe& lobe, std::vector<double> mus,
-                        std::vector<double> alphas) {
-  return sheet.is_curve() ? Integrals::averages(lobe, std::move(alphas))
-                          : Integrals(lobe, std::move(mus), std::move(alphas));
+Grid quick_grid(const Sheet& sheet, int lobe, const Reading& reading) {
+  const Field& field = field_of(lobe);
+  return sheet.is_curve() ? field.averages(reading.alphas)
+                          : field.grid(reading.mus, reading.alphas);
+}
+
+Grid exact_of(const Sheet& sheet, int lobe, const Reading& reading) {
+  const Lobe& names = tried_lobes()[lobe].lobe;
+  return sheet.is_curve() ? exact_averages(names, reading.alphas)
+                          : exact_grid(names, reading.mus, reading.alphas);
 }
 
 // Curves have one axis.
@@ -26,44 +32,6 @@ bool fits_shape(const Sheet& sheet, const TableAxes& axes) {
   return !sheet.is_curve() ||
          (axes.transposed && axes.cosine == CosineAxis::Cosine && !axes.cosine_reversed);
 }
-
-// Integrals of all lobes at the places of all coarse axes, for tables of some size.
-using AllIntegrals = std::vector<Integrals>;
-
-AllIntegrals coarse_integrals(const Sheet& sheet, bool transposed, const Places& places) {
-  std::vector<double> mus, alphas;
-  for (TableAxes axes : all_axes()) {
-    if (axes.transposed != transposed || !fits_shape(sheet, axes)) continue;
-    for (const Placement& alignment : {centres, nodes}) {
-      axes.cosine_alignment = axes.width_alignment = alignment;
-      const auto m = cosines_of(sheet, axes, places), a = alphas_of(sheet, axes, places);
-      mus.insert(mus.end(), m.begin(), m.end());
-      alphas.insert(alphas.end(), a.begin(), a.end());
-    }
-  }
-  AllIntegrals all;
-  all.reserve(all_models().size());
-  for (const Model& model : all_models()) {
-    all.push_back(integrals_for(sheet, model.lobe, mus, alphas));
-  }
-  return all;
-}
-
-class CoarseIntegrals {
- public:
-  const AllIntegrals& of(const Sheet& sheet, bool transposed, const Places& places) {
-    Size size = sheet.size();
-    if (transposed) std::swap(size.width, size.height);
-    auto found = made_.find(size);
-    if (found == made_.end()) {
-      found = made_.emplace(size, coarse_integrals(sheet, transposed, places)).first;
-    }
-    return found->second;
-  }
-
- private:
-  std::map<Size, AllIntegrals> made_;
-};
 
 // The best candidate of each class so far.
 class Ranking {
@@ -94,24 +62,29 @@ class Ranking {
 };
 
 // All lobes under these axes.
-void fit_lobes(int sheet, const TableAxes& axes, const Reading& reading, const AllIntegrals& all,
-               Ranking& ranking) {
+void fit_lobes(const Sheet& sheet, int index, const TableAxes& axes, const Reading& reading,
+               const std::vector<int>& lobes, Ranking& ranking) {
   std::vector<ChannelFit> shared = constant_channels(reading.values);
-  if (reading.mus.size() > 1) improve_fits(reading, -1, {}, meanings_of_diffuse(), shared);
-  for (size_t k = 0; k < all.size(); ++k) {
-    if (!all_models()[k].sheen) continue;
-    improve_fits(reading, static_cast<int>(k), all[k].at(reading.mus, reading.alphas),
-                 meanings_of_sheen(), shared);
+  if (!sheet.is_curve()) improve_fits(reading, -1, {}, meanings_without_lobe(), shared);
+  for (const int lobe : lobes) {
+    if (!tried_lobes()[lobe].sheen) continue;
+    improve_fits(reading, lobe, quick_grid(sheet, lobe, reading), meanings_of_sheen(), shared);
   }
-  for (size_t k = 0; k < all.size(); ++k) {
-    if (all_models()[k].sheen) continue;
-    const int model = static_cast<int>(k);
+  for (const int lobe : lobes) {
+    if (tried_lobes()[lobe].sheen) continue;
     std::vector<ChannelFit> fits = shared;
-    improve_fits(reading, model, all[k].at(reading.mus, reading.alphas), meanings_of_specular(),
-                 fits);
+    improve_fits(reading, lobe, quick_grid(sheet, lobe, reading), meanings_of_specular(), fits);
     const double score = score_of(fits);
-    ranking.add({sheet, axes, model, std::move(fits), score});
+    ranking.add({index, axes, std::move(fits), score});
   }
+}
+
+std::vector<int> lobes_for(Effort effort) {
+  std::vector<int> lobes;
+  for (size_t k = 0; k < tried_lobes().size(); ++k) {
+    if (effort == Effort::AllLobes || !tried_lobes()[k].rare) lobes.push_back(static_cast<int>(k));
+  }
+  return lobes;
 }
 
 bool varies(const Values& values) {
@@ -119,20 +92,19 @@ bool varies(const Values& values) {
   return std::any_of(fits.begin(), fits.end(), [](const ChannelFit& fit) { return !fit.constant; });
 }
 
-void search_sheet(const Sheet& sheet, int index, CoarseIntegrals& integrals, Ranking& ranking) {
+void search_sheet(const Sheet& sheet, int index, const std::vector<int>& lobes, Ranking& ranking) {
   for (const bool transposed : {false, true}) {
     if (sheet.is_curve() && !transposed) continue;
     const Places places = spread_places(sheet, transposed, coarse_entries);
     Reading reading{values_of(sheet, transposed, places), {}, {}};
     if (!varies(reading.values)) return;
-    const AllIntegrals& all = integrals.of(sheet, transposed, places);
     for (TableAxes axes : all_axes()) {
       if (axes.transposed != transposed || !fits_shape(sheet, axes)) continue;
       for (const Placement& alignment : {centres, nodes}) {
         axes.cosine_alignment = axes.width_alignment = alignment;
         reading.mus = cosines_of(sheet, axes, places);
         reading.alphas = alphas_of(sheet, axes, places);
-        fit_lobes(index, axes, reading, all, ranking);
+        fit_lobes(sheet, index, axes, reading, lobes, ranking);
       }
     }
   }
@@ -148,12 +120,12 @@ std::set<int> models_of(const Candidate& candidate) {
 }
 
 // The same meanings at other places: fits with their errors there.
-std::vector<ChannelFit> refit(const Reading& reading, const std::map<int, Integrals>& integrals,
+std::vector<ChannelFit> refit(const Sheet& sheet, const Reading& reading,
                               const Candidate& candidate) {
   std::vector<ChannelFit> fits = candidate.fits;
   std::map<int, Grid> grids;
   grids[-1] = {};
-  for (const auto& [model, made] : integrals) grids[model] = made.at(reading.mus, reading.alphas);
+  for (const int lobe : models_of(candidate)) grids[lobe] = quick_grid(sheet, lobe, reading);
   for (size_t c = 0; c < fits.size(); ++c) {
     if (fits[c].constant) continue;
     std::vector<ChannelFit> one(1);
@@ -173,31 +145,26 @@ std::vector<TableAxes> with_alignments(const TableAxes& axes, bool of_cosines) {
   return all;
 }
 
-Candidate best_alignment(const Sheet& sheet, const Candidate& candidate, const Places& places,
-                         Reading& reading, bool of_cosines) {
-  const std::vector<TableAxes> tried = with_alignments(candidate.axes, of_cosines);
-  std::vector<double> mus, alphas;
-  for (const TableAxes& axes : tried) {
-    const auto m = cosines_of(sheet, axes, places), a = alphas_of(sheet, axes, places);
-    mus.insert(mus.end(), m.begin(), m.end());
-    alphas.insert(alphas.end(), a.begin(), a.end());
-  }
-  std::map<int, Integrals> integrals;
-  for (const int k : models_of(candidate)) {
-    integrals.emplace(k, integrals_for(sheet, all_models()[k].lobe, mus, alphas));
-  }
-  Candidate best = candidate;
-  best.score = 1e9;
-  for (const TableAxes& axes : tried) {
+// The candidate under all alignments of one axis.
+std::vector<Candidate> aligned(const Sheet& sheet, const Candidate& candidate, const Places& places,
+                               Reading& reading, bool of_cosines) {
+  std::vector<Candidate> all;
+  for (const TableAxes& axes : with_alignments(candidate.axes, of_cosines)) {
     reading.mus = cosines_of(sheet, axes, places);
     reading.alphas = alphas_of(sheet, axes, places);
     Candidate one = candidate;
     one.axes = axes;
-    one.fits = refit(reading, integrals, candidate);
+    one.fits = refit(sheet, reading, candidate);
     one.score = score_of(one.fits);
-    if (handicapped(one) < handicapped(best)) best = std::move(one);
+    all.push_back(std::move(one));
   }
-  return best;
+  return all;
+}
+
+Candidate best_of(std::vector<Candidate> all) {
+  return *std::min_element(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return handicapped(a) < handicapped(b);
+  });
 }
 
 }  // namespace
@@ -233,26 +200,49 @@ Candidate align(const Sheet& sheet, const Candidate& candidate, int entries) {
   Candidate best = candidate;
   for (int pass = 0; pass < 2; ++pass) {
     const TableAxes before = best.axes;
-    best = best_alignment(sheet, best, places, reading, false);
-    if (!sheet.is_curve()) best = best_alignment(sheet, best, places, reading, true);
+    best = best_of(aligned(sheet, best, places, reading, false));
+    if (!sheet.is_curve()) best = best_of(aligned(sheet, best, places, reading, true));
     if (best.axes == before) break;
   }
   return best;
 }
 
-std::vector<Candidate> search(const std::vector<Sheet>& sheets, size_t most) {
-  CoarseIntegrals integrals;
+Candidate settle(const Sheet& sheet, const Candidate& candidate, int entries) {
+  const Places places = spread_places(sheet, candidate.axes.transposed, entries);
+  Reading reading{values_of(sheet, candidate.axes.transposed, places), {}, {}};
+  std::vector<Candidate> near = aligned(sheet, candidate, places, reading, false);
+  if (!sheet.is_curve()) {
+    for (Candidate& one : aligned(sheet, candidate, places, reading, true)) {
+      near.push_back(std::move(one));
+    }
+  }
+  std::stable_sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
+    return handicapped(a) < handicapped(b);
+  });
+  Candidate best = candidate;
+  best.score = 1e9;
+  for (size_t k = 0; k < std::min<size_t>(near.size(), 4); ++k) {
+    Candidate one = near[k];
+    one.fits = compare(sheet, one, entries).fits;
+    one.score = score_of(one.fits);
+    if (handicapped(one) < handicapped(best)) best = std::move(one);
+  }
+  return best;
+}
+
+std::vector<Candidate> search(const std::vector<Sheet>& sheets, Effort effort) {
+  const std::vector<int> lobes = lobes_for(effort);
   Ranking refined;
   for (size_t i = 0; i < sheets.size(); ++i) {
     Ranking coarse;
-    search_sheet(sheets[i], static_cast<int>(i), integrals, coarse);
+    search_sheet(sheets[i], static_cast<int>(i), lobes, coarse);
     const std::vector<Candidate> kept = coarse.first(kept_per_sheet);
     for (size_t k = 0; k < kept.size(); ++k) {
       if (k >= 4 && kept[k].score > 3 * kept[0].score + 0.01) break;
       refined.add(align(sheets[i], kept[k], fine_entries));
     }
   }
-  return refined.first(most);
+  return refined.first(sheets.size() * kept_per_sheet);
 }
 
 Comparison compare(const Sheet& sheet, const Candidate& candidate, int most) {
@@ -265,8 +255,7 @@ Comparison compare(const Sheet& sheet, const Candidate& candidate, int most) {
   std::map<int, Grid> grids;
   grids[-1] = {};
   for (const int k : models_of(candidate)) {
-    grids[k] = integrals_for(sheet, all_models()[k].lobe, reading.mus, reading.alphas)
-                   .at(reading.mus, reading.alphas);
+    grids[k] = exact_of(sheet, k, reading);
   }
   result.fits = candidate.fits;
   for (size_t c = 0; c < result.fits.size(); ++c) {

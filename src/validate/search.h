@@ -12,7 +12,6 @@ namespace kiln::validate {
 struct Candidate {
   int sheet = 0;
   TableAxes axes;
-  int specular = 0;  ///< on all_models(): what channels that hold no sheen and no diffuse are of
   std::vector<ChannelFit> fits;
   double score = 1;
 };
@@ -23,12 +22,18 @@ std::string class_of(const Candidate& candidate);
 /// Score with a small handicap for odd conventions, so that plain ones win ties.
 double handicapped(const Candidate& candidate);
 
+/// Which lobes are tried.
+enum class Effort { CommonLobes, AllLobes };
+
 /// The best candidate of each class, best first: all axes, lobes and meanings on a few entries,
-/// then all alignments for those that are left. At most `most`.
-std::vector<Candidate> search(const std::vector<Sheet>& sheets, size_t most);
+/// then all alignments for those that are left.
+std::vector<Candidate> search(const std::vector<Sheet>& sheets, Effort effort);
 
 /// The candidate with other alignments, of one axis at a time, that score best.
 Candidate align(const Sheet& sheet, const Candidate& candidate, int entries);
+
+/// The same with exact integrals, for a candidate that is aligned but for one step of one axis.
+Candidate settle(const Sheet& sheet, const Candidate& candidate, int entries);
 
 /// A candidate compared with up to `most` entries a side.
 struct Comparison {

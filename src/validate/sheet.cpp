@@ -81,10 +81,27 @@ std::vector<Arrangement> arrangements_of_shape(const std::vector<int>& shape) {
   return found;
 }
 
+// Lines of a text may be rows, or broken anywhere.
+bool has_shape(const NumberArray& array) {
+  using Stored = NumberArray::Stored;
+  const bool text = array.stored == Stored::Integer || array.stored == Stored::Decimal;
+  return array.shape.size() > 2 || (array.shape.size() == 2 && !text);
+}
+
+// Those that are not there yet.
+void append(std::vector<Arrangement> more, std::vector<Arrangement>& found) {
+  for (Arrangement& one : more) {
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Arrangement& other) {
+      return other.words == one.words;
+    });
+    if (!known) found.push_back(std::move(one));
+  }
+}
+
 std::vector<Arrangement> arrangements(const NumberArray& array) {
   const size_t n = array.values.size();
-  std::vector<Arrangement> found =
-      array.shape.size() > 1 ? arrangements_of_shape(array.shape) : arrangements_of_length(n);
+  std::vector<Arrangement> found = arrangements_of_shape(array.shape);
+  if (!has_shape(array)) append(arrangements_of_length(n), found);
   if (is_curve(array.shape, n)) found.push_back(arrange(static_cast<int>(n), 1, 1, false));
   std::erase_if(found, [n](const Arrangement& one) {
     return static_cast<size_t>(area(one.size)) * one.channels > n;
@@ -144,7 +161,7 @@ void keep_the_most_even(std::vector<Sheet>& sheets, size_t most) {
 }
 
 void append_sheets(const Shared& array, std::vector<Sheet>& all) {
-  const bool told = array->shape.size() > 1;
+  const bool told = has_shape(*array);
   for (const Decoding& decoding : decodings(*array)) {
     std::vector<Sheet> sheets;
     for (const Arrangement& arrangement : arrangements(*array)) {

@@ -77,9 +77,9 @@ void state_encodings(const Finding& finding, std::vector<std::string>& statement
     const ChannelMatch& channel = finding.match.channels[c];
     if (channel.quantity == "scale") scale = static_cast<int>(c);
     if (channel.quantity == "bias") bias = static_cast<int>(c);
-    if (channel.quantity == words(Meaning::ClampedAlbedo)) {
+    if (channel.masking == "neubelt-clamped") {
       statements.push_back(
-          "the albedo of the sheen is clamped to 1, which it exceeds near grazing");
+          "the visibility of the sheen is clamped to 1, which it exceeds near grazing");
     }
     if (!channel.known && !channel.constant) {
       statements.push_back(fmt::format("channel {} holds something else", channel.channel));

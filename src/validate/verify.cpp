@@ -13,7 +13,7 @@ namespace kiln {
 namespace validate {
 namespace {
 
-constexpr size_t classes_kept = 12;
+constexpr double hopeless = 0.06;  // a score that no other lobe would mend
 constexpr int entries_measured = 512, entries_aligned = 32;
 
 // A finer look at the few that are left, for noise hides small shifts from a coarse one.
@@ -26,6 +26,7 @@ void look_closer(const std::vector<Sheet>& sheets, std::vector<Candidate>& candi
   std::stable_sort(
       candidates.begin(), candidates.end(),
       [](const Candidate& a, const Candidate& b) { return handicapped(a) < handicapped(b); });
+  candidates[0] = settle(sheets[candidates[0].sheet], candidates[0], entries_aligned);
 }
 
 // Of the other classes the one whose errors are least in the channels that the best one explains.
@@ -35,7 +36,8 @@ const Candidate* runner_up(const std::vector<Sheet>& sheets,
                            const std::vector<ChannelErrors>& errors) {
   const Candidate& best = candidates[0];
   const auto alike = [&](const Candidate& other) {
-    return sheets[other.sheet].arrangement.words == sheets[best.sheet].arrangement.words &&
+    return sheets[other.sheet].array == sheets[best.sheet].array &&
+           sheets[other.sheet].arrangement.words == sheets[best.sheet].arrangement.words &&
            other.fits.size() == best.fits.size();
   };
   const Candidate* next = nullptr;
@@ -88,10 +90,14 @@ void judge(const std::vector<Sheet>& sheets, const std::vector<Candidate>& candi
 
 Verdict verify_sheets(const std::vector<Sheet>& sheets) {
   Verdict verdict;
-  std::vector<Candidate> candidates = search(sheets, classes_kept);
-  if (candidates.empty()) return verdict;
-  look_closer(sheets, candidates);
-  judge(sheets, candidates, verdict);
+  for (const Effort effort : {Effort::CommonLobes, Effort::AllLobes}) {
+    verdict = {};
+    std::vector<Candidate> candidates = search(sheets, effort);
+    if (candidates.empty()) break;
+    look_closer(sheets, candidates);
+    judge(sheets, candidates, verdict);
+    if (verdict.fits || candidates[0].score > hopeless) break;
+  }
   return verdict;
 }
 
