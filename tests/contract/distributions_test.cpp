@@ -125,6 +125,31 @@ TEST(EveryDistribution, AgreesAtEveryNumberType) {
   });
 }
 
+// Tangents of the drawn normals; azimuths are compared through the two slopes.
+TEST(EveryDistribution, IsSampledAlikeAtEveryNumberType) {
+  Distributions::for_each([]<template <class> class Model>() {
+    for (const double shape : shapes<Model<double>>()) {
+      for (const Widths& w : widths<Model<double>>()) {
+        const double x = static_cast<float>(w.x), y = static_cast<float>(w.y);
+        for (const double u : {0.125, 0.6875}) {
+          for (const double v : {0.0078125, 0.5, 0.9375}) {
+            const auto drawn = [&]<class F>() {
+              return make_distribution<Model<F>>(F(ScalarOf<F>(x)), F(ScalarOf<F>(y)), shape)
+                  .sample({F(u), F(v)});
+            };
+            const auto across = [&]<class F>() { return drawn.template operator()<F>().x; };
+            const auto up = [&]<class F>() { return drawn.template operator()<F>().z; };
+            const Vec3<double> wm = drawn.template operator()<double>();
+            test::expect_alike(wm.x, 1e-5, 1e-5, across, Model<double>::name);
+            test::expect_alike(wm.z, 1e-5, 1e-5, up, Model<double>::name);
+            EXPECT_NEAR(dot(wm, wm), 1, 1e-12) << Model<double>::name;
+          }
+        }
+      }
+    }
+  });
+}
+
 TEST(EveryDistribution, WithALambdaHasItGrowTowardGrazing) {
   Distributions::for_each([]<template <class> class Model>() {
     if constexpr (Model<double>::has_lambda) {

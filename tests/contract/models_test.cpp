@@ -198,6 +198,20 @@ bool is_clamped(const Model& model) {
   return false;
 }
 
+TEST(EveryFresnel, AveragesAlikeAtEveryNumberType) {
+  Fresnels::for_each([]<template <class> class Model>() {
+    for (const double n : {0.25, 1.03125, 1.5, 2.5}) {
+      const auto average = [n]<class F>() {
+        const FresnelChannel<F> channel{
+            .f0 = F(0.25), .f82 = F(0.5), .ior = F(n), .extinction = F(3)};
+        return Model<F>::make(channel).average();
+      };
+      test::expect_alike(average.template operator()<double>(), 1e-5, 0.1, average,
+                         Model<double>::name);
+    }
+  });
+}
+
 TEST(EveryFresnel, AveragesToItsIntegral) {
   Fresnels::for_each([]<template <class> class Model>() {
     for (const FresnelChannel<double>& channel : channels<double>()) {
@@ -255,6 +269,44 @@ TEST(EveryEnergy, SaysWhetherDirectionsMayBeSwapped) {
     };
     EXPECT_EQ(std::abs(f(there) - f(back)) < 1e-12, Model<double>::reciprocal)
         << Model<double>::name;
+  });
+}
+
+template <class F>
+Albedo<F> rough_albedo_as() {
+  const auto terms = [](const SplitSumTerms<double>& t) {
+    return SplitSumTerms<F>{F(ScalarOf<F>(t.scale)), F(ScalarOf<F>(t.bias))};
+  };
+  const Albedo<double> albedo = rough_albedo();
+  return {terms(albedo.o), terms(albedo.i), terms(albedo.average)};
+}
+
+TEST(EveryEnergy, AgreesAtEveryNumberType) {
+  Energies::for_each([]<template <class> class Model>() {
+    const auto total = []<class F>() {
+      return Model<F>::total({F(0.5), F(0.5625), F(0.25)}, rough_albedo_as<F>());
+    };
+    const auto eval = []<class F>() {
+      const ChannelEnergy<F> channel{F(0.5), F(0.5625), F(0.25)};
+      const Albedo<F> albedo = rough_albedo_as<F>();
+      return fma(F(0.25), Model<F>::scale(channel, albedo), Model<F>::added(channel, albedo));
+    };
+    const std::string_view name = Model<double>::name;
+    test::expect_alike(total.template operator()<double>(), 16 * 6e-8, 0, total, name);
+    test::expect_alike(eval.template operator()<double>(), 16 * 6e-8, 0, eval, name);
+  });
+}
+
+TEST(EveryCoupling, AgreesAtEveryNumberType) {
+  Couplings::for_each([]<template <class> class Model>() {
+    for (const bool constant : {false, true}) {
+      const auto weight = [constant]<class F>() {
+        const SpecularChannel<F> plastic{F(0.0625), F(1), F(0.015625)};
+        return Model<F>::weight(plastic, rough_albedo_as<F>(), constant);
+      };
+      test::expect_alike(weight.template operator()<double>(), 16 * 6e-8, 0, weight,
+                         Model<double>::name);
+    }
   });
 }
 
