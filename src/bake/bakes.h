@@ -26,7 +26,7 @@ struct LutBake {
     bool exact = false;
   };
   static Params<Settings> params();
-  static Needs needs(const Settings&) { return {}; }
+  static Needs needs(const Settings& settings);  ///< none; refuses words that do not fit
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 

@@ -241,6 +241,11 @@ Params<Settings> LutBake::params() {
   return params;
 }
 
+Needs LutBake::needs(const Settings& settings) {
+  resolve(settings);
+  return {};
+}
+
 Baked LutBake::bake(const Settings& settings, const Ingredients&) {
   const Lut lut = build_lut(resolve(settings));
   Baked baked;

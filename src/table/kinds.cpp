@@ -178,6 +178,7 @@ void complete(TableRecipe& recipe) {
   if (recipe.axes.size() < 3) recipe.depth = 1;
   if (recipe.axes.size() < 2) recipe.size.height = 1;
   check_axes(recipe);
+  LobeIntegrals(recipe.models.lobe, recipe.models.fresnel, Quality::Table);  // refuses a misfit
 }
 
 }  // namespace kiln

@@ -33,7 +33,8 @@ double sum_lanes(Wide values) {
 }
 
 bool has_kinks(const std::string& masking) {
-  return masking == "v-cavity" || masking == "neumann" || masking == "kelemen";
+  return masking == "v-cavity" || masking == "neumann" || masking == "kelemen" ||
+         masking == "estevez-kulla";
 }
 
 double greatest_error(const std::vector<LobeTerms>& found, const std::vector<LobeTerms>& truth) {
@@ -57,8 +58,8 @@ QuadratureOrder order_of(const Lobe& lobe, Quality quality, double mu) {
   }
   constexpr QuadratureOrder orders[] = {{40, 40}, {64, 80}, {96, 160}, {128, 192}};
   QuadratureOrder order = orders[static_cast<int>(quality)];
-  const double share = (8 + 2.4 * std::log2(1 / std::max(mu, least_mu))) / 32;
-  order.azimuths = static_cast<int>(std::ceil(order.azimuths * std::clamp(share, 0.3, 1.0)));
+  const double share = (12 + 2.4 * std::log2(1 / std::max(mu, least_mu))) / 32;
+  order.azimuths = static_cast<int>(std::ceil(order.azimuths * std::clamp(share, 0.4, 1.0)));
   return order;
 }
 
@@ -167,10 +168,12 @@ LobeIntegrals::LobeIntegrals(LobeIntegrals&&) noexcept = default;
 LobeIntegrals& LobeIntegrals::operator=(LobeIntegrals&&) noexcept = default;
 
 LobeTerms LobeIntegrals::at(const LobePoint& point) const {
-  QuadratureOrder order = order_of(work_->lobe, work_->quality, point.mu);
-  // An anisotropic lobe changes faster over the azimuth.
+  // An anisotropic lobe changes over the azimuth however steep the view.
   const double aspect = std::max(point.alpha_x / point.alpha_y, point.alpha_y / point.alpha_x);
-  if (aspect > 1) order.azimuths *= 1 + static_cast<int>(std::min(aspect, 16.0) / 2);
+  const bool isotropic = point.alpha_x == point.alpha_y;
+  QuadratureOrder order =
+      order_of(work_->lobe, work_->quality, isotropic ? point.mu : least_mu);
+  if (!isotropic) order.azimuths *= 1 + static_cast<int>(std::min(aspect, 16.0) / 2);
   return work_->integrate(make_view_rule(point.mu, order.azimuths), point, order.slopes);
 }
 

@@ -23,14 +23,57 @@ TEST(LutBake, SaysInTheFileWhatTheTableIsAndHowWrong) {
 }
 
 TEST(LutBake, IntegratesAtOnePointToItsClosedForm) {
-  EXPECT_NEAR(integrate_at("directional-albedo", 0.3, 1.0).at(0), 1 - 0.3 * std::log1p(1 / 0.3),
-              1e-11);
+  const auto values = integrate_at({{"table", "directional-albedo"}}, {0.3, 1.0});
+  EXPECT_EQ(values.at(0).channel, "total");
+  EXPECT_NEAR(values.at(0).value, 1 - 0.3 * std::log1p(1 / 0.3), 1e-11);
 }
 
 TEST(LutBake, RefusesAPointOutsideTheDomain) {
-  EXPECT_THROW(integrate_at("split-sum", 0, 0.5), Error);
-  EXPECT_THROW(integrate_at("split-sum", 0.5, 1.5), Error);
-  EXPECT_THROW(integrate_at("split-sum", NAN, 0.5), Error);
+  const LutWords split_sum = {{"table", "split-sum"}};
+  EXPECT_THROW(integrate_at(split_sum, {0, 0.5}), Error);
+  EXPECT_THROW(integrate_at(split_sum, {0.5, 1.5}), Error);
+  EXPECT_THROW(integrate_at(split_sum, {NAN, 0.5}), Error);
+  EXPECT_THROW(integrate_at(split_sum, {0.5}), Error);
+}
+
+TEST(LutBake, RefusesBeforeItBakesWhatDoesNotFit) {
+  const std::vector<LutWords> refused = {
+      {{"table", "split-sum"}, {"fresnel", "dielectric"}},
+      {{"table", "split-sum"}, {"masking", "estevez-kulla"}},
+      {{"table", "average-albedo"}, {"channels", "scale"}},
+      {{"table", "split-sum"}, {"preset", "cycles"}},
+      {{"table", "split-sum"}, {"axes", "mu"}},
+      {{"table", "split-sum"}, {"shape", "3"}},
+  };
+  for (const LutWords& words : refused) {
+    const auto recipe = make_recipe("lut");
+    for (const auto& [key, text] : words) recipe->set(key, text);
+    EXPECT_THROW(recipe->needs(), Error) << words.back().first << " " << words.back().second;
+  }
+}
+
+// Every table of every preset, small: built, described and free of nonsense.
+TEST(EveryLutPreset, MakesItsTables) {
+  for (const NamedText& preset : list_lut_presets()) {
+    int tables = 0;
+    for (const auto& [table, settings] : preset.facts) {
+      if (table == "type" || table == "note") continue;
+      const auto recipe = make_recipe("lut");
+      recipe->set("table", table);
+      recipe->set("preset", preset.name);
+      recipe->set("size", "8x6");
+      recipe->set("depth", "3");
+      const Baked baked = recipe->bake({});
+      const Artifact& artifact = baked.artifacts.at(0);
+      for (const Layer& layer : artifact.image.layers) {
+        for (const float value : layer.plane.texels_of_row(1 % artifact.image.size.height)) {
+          EXPECT_TRUE(std::isfinite(value)) << preset.name;
+        }
+      }
+      ++tables;
+    }
+    EXPECT_GE(tables, 1) << preset.name;
+  }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const std::vector<std::string> verbs = {"run", "lut", "env", "preview", "inspect", "diff", "list"};
+const std::vector<std::string> verbs = {"run", "lut", "verify", "env", "preview", "inspect", "diff", "list"};
 
 void expect_refused(const std::vector<std::string>& arguments, const std::string& message,
                     int code = 2) {

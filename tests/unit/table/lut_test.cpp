@@ -1,72 +1,225 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/table/lut.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 
 #include "kiln/core/error.h"
 #include "kiln/parallel/threads.h"
+#include "kiln/table/snippet.h"
+#include "support/faults.h"
+#include "support/temporary_folder.h"
 
 namespace kiln {
 namespace {
 
-TEST(Tables, EachFillsItsChannelsWithReflectances) {
+using testing::HasSubstr;
+
+TableRecipe recipe_for(const std::string& table, Size size, int depth = 3) {
+  TableRecipe recipe = recipe_of(find_table(table));
+  recipe.size = size;
+  recipe.depth = depth;
+  complete(recipe);
+  return recipe;
+}
+
+TEST(EveryTable, FillsItsChannelsAndStatesItsErrors) {
   for (const TableFacts& facts : all_tables()) {
-    const Lut lut = build_lut(facts, {16, 8});
-    ASSERT_EQ(lut.image.layers.size(), facts.channels.size()) << facts.name;
-    for (const Layer& layer : lut.image.layers) {
-      for (int y = 0; y < 8; ++y) {
-        for (const float value : layer.plane.texels_of_row(y)) {
-          EXPECT_GE(value, 0);
-          EXPECT_LE(value, 1);
-        }
-      }
+    const Lut lut = build_lut(recipe_for(facts.name, {6, 5}));
+    ASSERT_EQ(lut.entries.size(), facts.channels.size()) << facts.name;
+    for (const auto& channel : lut.entries) {
+      for (const double value : channel) EXPECT_TRUE(std::isfinite(value)) << facts.name;
+    }
+    const bool fitted = facts.name == "ltc";
+    EXPECT_LE(lut.entry_error, 4e-6) << facts.name;
+    EXPECT_EQ(lut.lookup_error > 0, !fitted) << facts.name;
+    EXPECT_EQ(lut.fit_error > 0, fitted) << facts.name;
+  }
+}
+
+TEST(EveryTable, OfReflectancesHoldsNoneAboveOne) {
+  for (const char* table : {"split-sum", "directional-albedo", "average-albedo", "f82", "ior",
+                            "anisotropic", "glass"}) {
+    const Lut lut = build_lut(recipe_for(table, {6, 5}));
+    for (const double value : lut.entries[0]) {
+      EXPECT_GE(value, 0) << table;
+      EXPECT_LE(value, 1 + 1e-6) << table;
+    }
+  }
+}
+
+TEST(EveryTable, HoldsTheIntegralsAtItsCoordinates) {
+  for (const TableFacts& facts : all_tables()) {
+    if (facts.name == "ltc") continue;
+    const TableRecipe recipe = recipe_for(facts.name, {4, 3});
+    const Lut lut = build_lut(recipe);
+    std::vector<double> point;
+    size_t at = 0, step = 1;
+    for (const TableAxis& axis : lut.axes) {
+      const int i = axis.count / 2;
+      point.push_back(axis.coordinates[i]);
+      at += step * i;
+      step *= axis.count;
+    }
+    const auto values = integrate_at(recipe, point);
+    for (size_t c = 0; c < values.size(); ++c) {
+      EXPECT_NEAR(lut.entries[c][at], values[c], 2e-6) << facts.name << " " << c;
     }
   }
 }
 
 TEST(Tables, StateAnEntryErrorBelowOneMillionth) {
-  for (const TableFacts& facts : all_tables()) {
-    const Lut lut = build_lut(facts, {64, 64});
-    EXPECT_LE(lut.entry_error, 1e-6) << facts.name;
-    EXPECT_GT(lut.entry_error, 0) << facts.name;
+  for (const char* table : {"split-sum", "directional-albedo", "f82"}) {
+    const Lut lut = build_lut(recipe_for(table, {64, 64}));
+    EXPECT_LE(lut.entry_error, 1e-6) << table;
+    EXPECT_GT(lut.entry_error, 0) << table;
   }
 }
 
+TEST(Tables, AreExactToTenDigitsWhenAsked) {
+  TableRecipe recipe = recipe_for("split-sum", {80, 60});
+  recipe.exact = true;
+  const Lut lut = build_lut(recipe);
+  EXPECT_LE(lut.entry_error, 1e-10);
+}
+
 TEST(Tables, LieWithTexelCentresAndTheSmoothestRowOnTop) {
-  const TableFacts& split_sum = find_table("split-sum");
-  const Lut lut = build_lut(split_sum, {8, 4});
-  const auto corner = integrate_at(split_sum, 0.5 / 8, 0.5 / 4);
-  EXPECT_NEAR(lut.image.layers[0].plane.at(0, 0), corner[0], 1e-6);
-  const auto other = integrate_at(split_sum, 7.5 / 8, 3.5 / 4);
-  EXPECT_NEAR(lut.image.layers[1].plane.at(7, 3), other[1], 1e-6);
+  const TableRecipe recipe = recipe_for("split-sum", {8, 4});
+  const Lut lut = build_lut(recipe);
+  const Layers image = to_image(lut);
+  const auto corner = integrate_at(recipe, {0.5 / 8, 0.5 / 4});
+  EXPECT_NEAR(image.layers[0].plane.at(0, 0), corner[0], 1e-6);
+  const auto other = integrate_at(recipe, {7.5 / 8, 3.5 / 4});
+  EXPECT_NEAR(image.layers[1].plane.at(7, 3), other[1], 1e-6);
+}
+
+TEST(Tables, FlippedOnesHoldTheSameRowsFromTheBottom) {
+  TableRecipe recipe = recipe_for("split-sum", {8, 4});
+  const Layers top = to_image(build_lut(recipe));
+  recipe.origin = Origin::Bottom;
+  const Layers bottom = to_image(build_lut(recipe));
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      EXPECT_EQ(top.layers[0].plane.at(x, y), bottom.layers[0].plane.at(x, 3 - y));
+    }
+  }
+}
+
+TEST(Tables, TransposedOnesSwapTheirAxes) {
+  TableRecipe recipe = recipe_for("split-sum", {8, 8});
+  const Layers plain = to_image(build_lut(recipe));
+  recipe.axes = {"roughness", "mu"};
+  const Layers swapped = to_image(build_lut(recipe));
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      EXPECT_EQ(plain.layers[1].plane.at(x, y), swapped.layers[1].plane.at(y, x));
+    }
+  }
 }
 
 TEST(Tables, StateTheLookupErrorThatALinearAxisHas) {
   // A linear cosine axis errs by some 9e-2 near grazing however many entries it has.
-  const Lut lut = build_lut(find_table("directional-albedo"), {128, 128});
+  const Lut lut = build_lut(recipe_for("directional-albedo", {128, 128}));
   EXPECT_GT(lut.lookup_error, 0.03);
   EXPECT_LT(lut.lookup_error, 0.12);
   // Away from grazing it is the clamped half texel at roughness 1 that errs most.
   EXPECT_LT(lut.lookup_error_inner, 5e-3);
 }
 
+TEST(Tables, ReadBetterOverASquareRootAxis) {
+  TableRecipe recipe = recipe_for("directional-albedo", {128, 128});
+  recipe.alignment = Alignment::Corner;
+  recipe.axes = {"sqrt-mu", "roughness"};
+  EXPECT_LT(build_lut(recipe).lookup_error, 2.5e-2);
+}
+
 TEST(Tables, AreTheSameBytesForAnyNumberOfThreads) {
   const auto build = [](int threads) {
     const ThreadLimit limit(threads);
-    return integrate_entries(find_table("split-sum"), {33, 17});
+    return build_lut(recipe_for("split-sum", {70, 65})).entries;
   };
   EXPECT_EQ(build(1), build(4));
 }
 
-TEST(Tables, UnknownOnesAreRefusedWithTheNearest) {
-  try {
-    find_table("split-sun");
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "unknown table 'split-sun' (did you mean 'split-sum'?)");
+TEST(Tables, UnknownWordsAreRefusedWithTheNearest) {
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { find_table("split-sun"); }), HasSubstr("unknown table 'split-sun' (did you mean 'split-sum'?)"));
+  TableRecipe recipe = recipe_of(find_table("split-sum"));
+  recipe.axes = {"mu", "rougness"};
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }), HasSubstr("did you mean 'roughness'?"));
+  recipe.axes = {"mu", "sqrt-mu"};
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }), HasSubstr("found mu twice"));
+  recipe.axes = {"mu", "f0"};
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }), HasSubstr("runs over mu, roughness"));
+}
+
+TEST(Axes, PositionIsTheInverseOfValue) {
+  for (const AxisMapping& mapping : all_axis_mappings()) {
+    for (const double u : {0.0, 0.1, 0.37, 0.8, 0.98}) {
+      EXPECT_NEAR(mapping.position(mapping.value(u)), u, 1e-12) << mapping.name;
+    }
+    for (const std::string& alias : mapping.aliases) {
+      EXPECT_EQ(find_axis_mapping(alias).name, mapping.name);
+    }
   }
+}
+
+// The C++ snippet is compiled, run over the table and compared with the lookups that it states.
+TEST(Snippets, LookUpTheTableTheyAreMadeFor) {
+  const test::TemporaryFolder folder;
+  for (const char* table : {"split-sum", "average-albedo", "glass"}) {
+    TableRecipe recipe = recipe_for(table, {12, 9}, 4);
+    recipe.alignment = Alignment::Corner;
+    const Lut lut = build_lut(recipe);
+    std::string name = "kiln_" + recipe.table, arguments;
+    for (char& c : name) c = c == '-' ? '_' : c;
+    std::vector<double> point;
+    for (size_t a = 0; a < lut.axes.size(); ++a) {
+      point.push_back(lut.axes[a].mapping.value(0.3 + 0.2 * static_cast<double>(a)));
+      arguments += ", " + std::to_string(point.back()) + "f";
+    }
+    std::ofstream source(folder.folder() / "lookup.cpp");
+    source << lookup_snippet(lut, SnippetLanguage::Cpp, "t.h", false) << "\n#include <cstdio>\n"
+           << "const float texels[] = {";
+    for (size_t i = 0; i < lut.entries[0].size(); ++i) {
+      for (const auto& channel : lut.entries) source << static_cast<float>(channel[i]) << ",";
+    }
+    source << "};\nint main() { const auto v = " << name << "(texels" << arguments << ");\n"
+           << "  for (float x : v) std::printf(\"%.9g\\n\", x);\n}\n";
+    source.close();
+    const std::string here = folder.folder().string();
+    const std::string command = std::string(KILN_CXX_COMPILER) + " -std=c++17 -Wall -Werror " +
+                                here + "/lookup.cpp -o " + here + "/lookup && " + here +
+                                "/lookup > " + here + "/values";
+    ASSERT_EQ(std::system(command.c_str()), 0) << table;
+    std::ifstream values(folder.folder() / "values");
+    for (size_t c = 0; c < lut.entries.size(); ++c) {
+      double value = -1;
+      values >> value;
+      EXPECT_NEAR(value, look_up(lut, c, point), 2e-5) << table << " " << c;
+    }
+  }
+}
+
+TEST(Snippets, StateFivePointsAndDecodeRgbd) {
+  TableRecipe recipe = recipe_for("split-sum", {8, 8});
+  recipe.origin = Origin::Bottom;
+  const Lut lut = build_lut(recipe);
+  const std::string glsl = lookup_snippet(lut, SnippetLanguage::Glsl, "dfg.dds", true);
+  EXPECT_THAT(glsl, HasSubstr("vec2 kiln_split_sum(sampler2D table, float mu"));
+  EXPECT_THAT(glsl, HasSubstr("1.0 - (roughness)"));
+  EXPECT_THAT(glsl, HasSubstr("pow(stored.rgb, vec3(2.2)) / stored.a"));
+  size_t points = 0;
+  for (size_t at = glsl.find("//   kiln_"); at != std::string::npos;
+       at = glsl.find("//   kiln_", at + 1)) {
+    ++points;
+  }
+  EXPECT_EQ(points, 5u);
+  EXPECT_THAT(lookup_snippet(lut, SnippetLanguage::Hlsl, "dfg.dds", false),
+              HasSubstr("table.SampleLevel(linear_clamp, at, 0)"));
 }
 
 }  // namespace
