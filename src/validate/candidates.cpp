@@ -23,22 +23,26 @@ double burley_albedo(double mu, double alpha) {
 }
 
 bool is_common(const Lobe& lobe) {
-  static constexpr std::array<std::string_view, 6> of_ggx{"smith-correlated", "smith-separable",
-                                                          "schlick-ggx",      "schlick-ggx-direct",
-                                                          "hammon",           "unreal-joint"};
+  static constexpr std::array<std::string_view, 5> of_ggx{
+      "smith-correlated", "smith-separable", "schlick-ggx", "schlick-ggx-direct", "hammon"};
   if (lobe.distribution == "ggx") {
     return std::find(of_ggx.begin(), of_ggx.end(), lobe.masking) != of_ggx.end();
   }
   return lobe.distribution == "beckmann" && lobe.masking.starts_with("smith");
 }
 
-// Cloth has maskings of its own, and nobody tabulates lobes without a mirror's limit of 1.
+// Unreal's joint masking is Hammon's. Cloth has maskings of its own, and nobody tabulates lobes
+// without a mirror's limit of 1.
 bool is_tried(const Lobe& lobe) {
   if (lobe.distribution == "charlie") {
     return lobe.masking.starts_with("neubelt") || lobe.masking == "estevez-kulla";
   }
+  if (lobe.distribution == "phong") return lobe.masking.starts_with("smith");
+  if (lobe.distribution == "beckmann" && !is_common(lobe)) {
+    return lobe.masking == "v-cavity" || lobe.masking == "schlick-beckmann";
+  }
   return lobe.masking != "kelemen" && lobe.masking != "neumann" && lobe.masking != "implicit" &&
-         !lobe.masking.starts_with("neubelt");
+         lobe.masking != "unreal-joint" && !lobe.masking.starts_with("neubelt");
 }
 
 std::vector<TriedLobe> make_lobes() {

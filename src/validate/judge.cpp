@@ -17,7 +17,9 @@ constexpr double clear_ratio = 1.5;
 constexpr double curve_rms = 0.003;
 
 std::string lobe_words(const Lobe& lobe) {
-  return fmt::format("{} with {} masking", lobe.distribution, lobe.masking);
+  const bool two_names = lobe.masking == "hammon";  // and the same formula
+  return fmt::format("{} with {} masking", lobe.distribution,
+                     two_names ? "hammon (unreal-joint)" : lobe.masking);
 }
 
 std::string table_class(const std::vector<ChannelFit>& fits, bool curve) {

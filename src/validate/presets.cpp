@@ -39,7 +39,7 @@ const std::vector<Preset>& all_presets() {
       {"babylon", upright, {Bias, Albedo, Albedo}},
       {"godot", reversed, {Bias, Albedo, Albedo}},
       {"unreal", upright, {Scale, Bias}},
-      {"unreal", upright, {Scale, Bias}, "unreal-joint"},
+      {"unreal", upright, {Scale, Bias}, "hammon"},
       {"unity-hdrp", hdrp, {Bias, Albedo, BurleyLessHalf}},
       {"materialx", by_alpha, {Scale, Bias}},
       {"materialx", by_alpha, {Scale, Bias, Albedo}},

@@ -12,7 +12,7 @@ namespace kiln::validate {
 namespace {
 
 constexpr int coarse_entries = 12, fine_entries = 16;
-constexpr size_t kept_per_sheet = 16;
+constexpr size_t kept_per_sheet = 16, most_settled = 8;
 
 // Curves hold averages over directions, tables the integrals themselves.
 Grid quick_grid(const Sheet& sheet, int lobe, const Reading& reading) {
@@ -207,7 +207,8 @@ Candidate align(const Sheet& sheet, const Candidate& candidate, int entries) {
   return best;
 }
 
-Candidate settle(const Sheet& sheet, const Candidate& candidate, int entries) {
+// The best of the candidate and those a step of one axis away, by exact integrals.
+static Candidate one_step(const Sheet& sheet, const Candidate& candidate, int entries) {
   const Places places = spread_places(sheet, candidate.axes.transposed, entries);
   Reading reading{values_of(sheet, candidate.axes.transposed, places), {}, {}};
   std::vector<Candidate> near = aligned(sheet, candidate, places, reading, false);
@@ -221,11 +222,21 @@ Candidate settle(const Sheet& sheet, const Candidate& candidate, int entries) {
   });
   Candidate best = candidate;
   best.score = 1e9;
-  for (size_t k = 0; k < std::min<size_t>(near.size(), 4); ++k) {
+  for (size_t k = 0; k < std::min<size_t>(near.size(), most_settled); ++k) {
     Candidate one = near[k];
     one.fits = compare(sheet, one, entries).fits;
     one.score = score_of(one.fits);
     if (handicapped(one) < handicapped(best)) best = std::move(one);
+  }
+  return best;
+}
+
+Candidate settle(const Sheet& sheet, const Candidate& candidate, int entries) {
+  Candidate best = one_step(sheet, candidate, entries);
+  for (int steps = 1; steps < 3 && !(best.axes == candidate.axes); ++steps) {
+    Candidate next = one_step(sheet, best, entries);
+    if (next.axes == best.axes) break;
+    best = std::move(next);
   }
   return best;
 }

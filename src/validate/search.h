@@ -32,7 +32,7 @@ std::vector<Candidate> search(const std::vector<Sheet>& sheets, Effort effort);
 /// The candidate with other alignments, of one axis at a time, that score best.
 Candidate align(const Sheet& sheet, const Candidate& candidate, int entries);
 
-/// The same with exact integrals, for a candidate that is aligned but for one step of one axis.
+/// The same with exact integrals, a step of one axis at a time.
 Candidate settle(const Sheet& sheet, const Candidate& candidate, int entries);
 
 /// A candidate compared with up to `most` entries a side.

@@ -112,7 +112,9 @@ void state_metadata(const Finding& finding, std::vector<std::string>& statements
   for (const ChannelMatch& channel : finding.match.channels) {
     if (channel.masking.empty() || !channel.known) continue;
     if (channel.distribution == "charlie") continue;
-    if (!masking.empty() && masking != channel.masking) {
+    const bool same =
+        masking == channel.masking || (masking == "unreal-joint" && channel.masking == "hammon");
+    if (!masking.empty() && !same) {
       statements.push_back(
           fmt::format("metadata says masking {}, the entries are of {}", masking, channel.masking));
       break;

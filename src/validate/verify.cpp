@@ -14,19 +14,26 @@ namespace validate {
 namespace {
 
 constexpr double hopeless = 0.06;  // a score that no other lobe would mend
+constexpr size_t looked_at = 4;
 constexpr int entries_measured = 512, entries_aligned = 32;
 
 // A finer look at the few that are left, for noise hides small shifts from a coarse one.
 void look_closer(const std::vector<Sheet>& sheets, std::vector<Candidate>& candidates) {
-  const double worth = 1.5 * candidates[0].score + 1e-6;
-  for (size_t i = 0; i < std::min<size_t>(candidates.size(), 4); ++i) {
-    Candidate& one = candidates[i];
-    if (one.score <= worth) one = align(sheets[one.sheet], one, entries_aligned);
+  const auto better = [](const Candidate& a, const Candidate& b) {
+    return handicapped(a) < handicapped(b);
+  };
+  const auto first = candidates.begin();
+  const auto last = first + static_cast<long>(std::min(candidates.size(), looked_at));
+  const double worth = 1.5 * first->score + 1e-6;
+  for (auto one = first; one != last; ++one) {
+    if (one->score <= worth) *one = align(sheets[one->sheet], *one, entries_aligned);
   }
-  std::stable_sort(
-      candidates.begin(), candidates.end(),
-      [](const Candidate& a, const Candidate& b) { return handicapped(a) < handicapped(b); });
-  candidates[0] = settle(sheets[candidates[0].sheet], candidates[0], entries_aligned);
+  std::stable_sort(first, last, better);
+  const double close = 1.5 * first->score + 0.003;
+  for (auto one = first; one != last; ++one) {
+    if (one->score <= close) *one = settle(sheets[one->sheet], *one, entries_aligned);
+  }
+  std::stable_sort(first, last, better);
 }
 
 // Of the other classes the one whose errors are least in the channels that the best one explains.

@@ -102,6 +102,39 @@ TEST(Conventions, ChannelsAreNamedByWhatTheyHold) {
   EXPECT_EQ(verdict.best.channels[3].quantity, "1 - albedo");
 }
 
+TEST(Conventions, LobesAreToldFromEachOther) {
+  const std::vector<Lobe> lobes{{"ggx", "smith-separable"},
+                                {"ggx", "schlick-ggx"},
+                                {"ggx", "hammon"},
+                                {"ggx", "v-cavity"},
+                                {"beckmann", "smith-correlated"},
+                                {"beckmann", "smith-separable"}};
+  for (const Lobe& lobe : lobes) {
+    const Verdict verdict = verify({.width = 16, .height = 16, .lobe = lobe});
+    EXPECT_TRUE(verdict.fits) << lobe.distribution << " " << lobe.masking << summary(verdict);
+    EXPECT_EQ(verdict.best.channels[0].distribution, lobe.distribution) << summary(verdict);
+    EXPECT_EQ(verdict.best.channels[0].masking, lobe.masking) << summary(verdict);
+    EXPECT_LT(verdict.best.max_error, 5e-6) << summary(verdict);
+  }
+}
+
+TEST(Conventions, UnrealsJointMaskingIsHammons) {
+  const Verdict verdict = verify({.width = 16, .height = 16, .lobe = {"ggx", "unreal-joint"}});
+  EXPECT_EQ(verdict.best.channels[0].masking, "hammon") << summary(verdict);
+  EXPECT_EQ(verdict.presets, std::vector<std::string>{"unreal"});
+}
+
+TEST(Conventions, ClothIsFoundAloneToo) {
+  for (const char* masking : {"neubelt", "estevez-kulla"}) {
+    const Verdict verdict =
+        verify({.lobe = {"charlie", masking},
+                .channels = [](const auto& terms) { return std::vector{terms.total()}; }});
+    EXPECT_TRUE(verdict.fits) << masking << summary(verdict);
+    EXPECT_EQ(verdict.best.table_class, "sheen") << summary(verdict);
+    EXPECT_EQ(verdict.best.channels[0].masking, masking) << summary(verdict);
+  }
+}
+
 TEST(Conventions, TablesOfUnequalSidesAreFound) {
   const Verdict verdict = verify({.width = 64, .height = 16});
   expect_exact(verdict);

@@ -84,11 +84,23 @@ TEST(KnownTables, FilamentIsRecognisedWithItsShiftedRows) {
   }
 }
 
+TEST(KnownTables, ClothBesideFilamentsTableIsRecognised) {
+  KILN_REQUIRE_REAL_DATA(data);
+  const Verdict verdict =
+      verify_tables({image(data / "data/reference/filament_cmgen/dfg_multiscatter_cloth_128.exr")});
+  EXPECT_TRUE(verdict.fits) << summary(verdict);
+  EXPECT_EQ(verdict.best.channels[2].distribution, "charlie") << summary(verdict);
+  EXPECT_THAT(verdict.presets, Contains("filament-cloth"));
+  EXPECT_THAT(verdict.statements, Contains(StartsWith("rows hold the roughness of the next row")));
+}
+
 TEST(KnownTables, AlbedosOfLinearlyTransformedCosinesAreRecognised) {
   KILN_REQUIRE_REAL_DATA(data);
   const Verdict verdict = verify_tables({image(data / "data/reference/three_ltc_mat_2_64.exr")});
   EXPECT_TRUE(verdict.fits) << summary(verdict);
   EXPECT_EQ(verdict.presets, std::vector<std::string>{"ltc"});
+  EXPECT_THAT(verdict.best.channels[3].quantity, HasSubstr("form factor of a sphere"));
+  EXPECT_LT(verdict.best.channels[3].max_error, 1e-5);
 }
 
 TEST(KnownTables, PhotographsAndNormalMapsAreNone) {
