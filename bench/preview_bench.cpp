@@ -55,7 +55,7 @@ std::unique_ptr<Recipe> recipe_of(const test::Settings& settings) {
 void reference(benchmark::State& state, const char* diffuse) {
   const Stage stage({1024, 1024});
   Ingredients ingredients = stage.ingredients();
-  ingredients.diffuse = diffuse;
+  ingredients.surface.diffuse = diffuse;
   const auto recipe = recipe_of({{"samples", "64"}});
   for (auto _ : state) benchmark::DoNotOptimize(recipe->bake(ingredients));
   state.SetItemsProcessed(state.iterations() * 64 * 1024 * 1024);

@@ -3,7 +3,6 @@
 
 #include "kiln/integrate/sobol.h"
 #include "kiln/light/environment.h"
-#include "kiln/math/hash.h"
 #include "shading_point.h"
 
 namespace kiln {
@@ -44,16 +43,6 @@ Vec3<F> sample_direction(const ShadingPoint<F, Diffuse>& point, const Vec2<F>& u
   const Vec3<F> wm = point.surface.ggx.sample_visible(point.wo, v);
   const Vec3<F> mirrored = wm * (F(2) * dot(point.wo, wm)) - point.wo;
   return select(specular, mirrored, square_to_cosine(v));
-}
-
-/// Seeds of the four scrambled dimensions of one repetition at one texel.
-template <class U>
-std::array<U, 4> repetition_seeds(U texel, std::uint32_t repetition) {
-  std::array<U, 4> seeds;
-  for (std::uint32_t d = 0; d < 4; ++d) {
-    seeds[d] = combine_hash<U>(texel, U(4 * repetition + d));
-  }
-  return seeds;
 }
 
 /// Sum over the points [first, last) of the set; divide by their number for the radiance.

@@ -15,15 +15,16 @@ int wrap(int i, int n) {
   return rest < 0 ? rest + n : rest;
 }
 
-// Adds weight times the bilinear value of each plane at (u, v), repeating.
-void add_bilinear(const Svbrdf& maps, double u, double v, double weight, float* values) {
+// Adds weight times the bilinear value of each plane of the range at (u, v), repeating.
+void add_bilinear(const Svbrdf& maps, double u, double v, double weight, const PlaneRange& range,
+                  float* values) {
   const double x = u * maps.size.width - 0.5, y = v * maps.size.height - 0.5;
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
   const double tx = x - left, ty = y - top;
   const int x0 = wrap(left, maps.size.width), x1 = wrap(left + 1, maps.size.width);
   const int y0 = wrap(top, maps.size.height), y1 = wrap(top + 1, maps.size.height);
   const auto planes = planes_of(maps);
-  for (int p = 0; p < svbrdf_planes; ++p) {
+  for (int p = range.first; p < range.last; ++p) {
     const float *a = planes[p]->row(y0), *b = planes[p]->row(y1);
     const double value = std::lerp(std::lerp(a[x0], a[x1], tx), std::lerp(b[x0], b[x1], tx), ty);
     values[p] += static_cast<float>(weight * value);
@@ -56,6 +57,10 @@ Vec3<double> Picture::to_environment(const Vec3<double>& w) const {
   return {w.x * cos_rotate_ - w.z * sin_rotate_, w.y, w.x * sin_rotate_ + w.z * cos_rotate_};
 }
 
+Vec3<double> Picture::from_environment(const Vec3<double>& w) const {
+  return {w.x * cos_rotate_ + w.z * sin_rotate_, w.y, w.z * cos_rotate_ - w.x * sin_rotate_};
+}
+
 double Picture::radius() const {
   return 0.48 * std::min(options_.size.width, options_.size.height);
 }
@@ -77,27 +82,33 @@ Picture::Spot Picture::spot_of_ball(double px, double py) const {
     x *= rim / r;
     y *= rim / r;
   }
-  const double z = std::sqrt(1 - x * x - y * y);
-  const double longitude = std::atan2(x, z), latitude = std::asin(std::clamp(y, -1.0, 1.0));
+  return spot_on_ball({x, y, std::sqrt(1 - x * x - y * y)});
+}
+
+Picture::Spot Picture::spot_on_ball(const Vec3<double>& normal) const {
+  const double longitude = std::atan2(normal.x, normal.z);
+  const double latitude = std::asin(std::clamp(normal.y, -1.0, 1.0));
   const Vec3<double> along{std::cos(longitude), 0, -std::sin(longitude)};
-  const Vec3<double> normal{x, y, z};
   // Two repeats around 2 pi, so that the map's aspect on the ball is 1 : 1 at the equator.
   const double u = longitude / pi + 0.5, v = 0.5 - latitude / pi;
   const Size map = levels_.front().size;
   const double texels_per_pixel = std::max(map.width, map.height) / (pi * radius());
-  // Between the shorter and the longer axis of the pixel's footprint, which is 1 to 1/z.
-  const double level = std::log2(std::max(texels_per_pixel / std::sqrt(z), 1.0));
+  // Between the shorter and the longer axis of the pixel's footprint, which is 1 to 1/z. What is
+  // seen through the ball has no such footprint; it is read as if seen as steeply from behind.
+  const double tilt = std::max(std::abs(normal.z), 0.03);
+  const double level = std::log2(std::max(texels_per_pixel / std::sqrt(tilt), 1.0));
   return {u, v, level, {along, cross(normal, along), normal}};
 }
 
-void Picture::read(double u, double v, double level, float* values) const {
+void Picture::read(const Spot& spot, const PlaneRange& planes, float* values) const {
   const double last = static_cast<double>(levels_.size() - 1);
-  const double at = std::clamp(level, 0.0, last);
+  // Half a level finer: the positions inside a pixel average what is left.
+  const double at = std::clamp(spot.level - 0.5, 0.0, last);
   const auto fine = static_cast<size_t>(at);
   const double blend = at - static_cast<double>(fine);
   std::fill(values, values + svbrdf_planes, 0.0f);
-  add_bilinear(levels_[fine], u, v, 1 - blend, values);
-  if (blend > 0) add_bilinear(levels_[fine + 1], u, v, blend, values);
+  add_bilinear(levels_[fine], spot.u, spot.v, 1 - blend, planes, values);
+  if (blend > 0) add_bilinear(levels_[fine + 1], spot.u, spot.v, blend, planes, values);
 }
 
 template <class F>
@@ -122,8 +133,7 @@ void Picture::fill(int x, int y, int position, TexelBlock<F>& texels,
                                       : Spot{px / options_.size.width, py / options_.size.height,
                                              std::log2(std::max(minified, 1.0)), plane};
       frame = spot.frame;
-      // Half a level finer: the four positions average what is left.
-      read(spot.u, spot.v, spot.level - 0.5, values);
+      read(spot, {}, values);
     }
     for (int p = 0; p < svbrdf_planes; ++p) texels[p][lane] = values[p];
     put<F>(along, lane, to_environment(frame.x));
@@ -137,6 +147,26 @@ void Picture::fill(int x, int y, int position, TexelBlock<F>& texels,
                          F(static_cast<float>(viewer.z))};
 }
 
+template <class F>
+void Picture::fill_on_ball(const Vec3<F>& normal, TexelBlock<F>& texels, Frame<F>& frame) const {
+  constexpr int lanes = lane_count<F>;
+  std::array<std::array<float, lanes>, 3> along, up, at;
+  store_lanes(at[0].data(), normal.x);
+  store_lanes(at[1].data(), normal.y);
+  store_lanes(at[2].data(), normal.z);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const Spot spot = spot_on_ball(from_environment({at[0][lane], at[1][lane], at[2][lane]}));
+    float values[svbrdf_planes];
+    read(spot, relief_planes, values);
+    for (int p = 0; p < svbrdf_planes; ++p) texels[p][lane] = values[p];
+    put<F>(along, lane, to_environment(spot.frame.x));
+    put<F>(up, lane, to_environment(spot.frame.y));
+  }
+  frame = {load_vector<F>(along), load_vector<F>(up), normal};
+}
+
+template void Picture::fill_on_ball<WideFloat>(const Vec3<WideFloat>&, TexelBlock<WideFloat>&,
+                                               Frame<WideFloat>&) const;
 template void Picture::fill<float>(int, int, int, TexelBlock<float>&, Placement<float>&) const;
 template void Picture::fill<WideFloat>(int, int, int, TexelBlock<WideFloat>&,
                                        Placement<WideFloat>&) const;

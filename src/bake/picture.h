@@ -27,6 +27,7 @@ class Picture {
   Picture(const Svbrdf& maps, const Options& options);
 
   Size size() const { return options_.size; }
+  bool is_ball() const { return options_.ball; }
 
   /// How many positions inside a pixel are shaded: 1 where picture and map texels coincide.
   int positions() const { return exact_ ? 1 : subpixels; }
@@ -38,6 +39,11 @@ class Picture {
   template <class F>
   void fill(int x, int y, int position, TexelBlock<F>& texels, Placement<F>& placement) const;
 
+  /// Roughness and normal of the maps, and the frame, where the ball's outward normal is this (in
+  /// the environment's space, unit); other planes are 0. For paths inside the ball.
+  template <class F>
+  void fill_on_ball(const Vec3<F>& normal, TexelBlock<F>& texels, Frame<F>& frame) const;
+
  private:
   struct Spot {
     double u, v;
@@ -45,8 +51,10 @@ class Picture {
     Frame<double> frame;
   };
   Spot spot_of_ball(double px, double py) const;
-  void read(double u, double v, double level, float* values) const;
+  Spot spot_on_ball(const Vec3<double>& normal) const;
+  void read(const Spot& spot, const PlaneRange& planes, float* values) const;
   Vec3<double> to_environment(const Vec3<double>& w) const;
+  Vec3<double> from_environment(const Vec3<double>& w) const;
   double radius() const;
 
   Options options_;

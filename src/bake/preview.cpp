@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bakes.h"
-#include "kiln/brdf/models.h"
+#include "preview_glass.h"
 #include "preview_rows.h"
 
 namespace kiln {
@@ -70,17 +70,34 @@ struct Rendered {
   Layers image;
   int samples = 0;
   double mean_error = 0;
+  double lost = 0;  ///< of glass
 };
+
+bool is_glass(const ShadingInputs& inputs) { return inputs.surface.bsdf == "glass"; }
+
+Rendered render_once(const Picture& picture, const ShadingInputs& inputs, int samples, int seed) {
+  Rendered rendered;
+  rendered.samples = samples;
+  if (is_glass(inputs)) {
+    GlassPicture glass = estimate_glass(picture, inputs, samples, seed);
+    rendered.image = std::move(glass.image);
+    rendered.lost = glass.lost;
+  } else {
+    rendered.image = estimate_picture(picture, inputs, samples, seed);
+  }
+  rendered.mean_error = mean_of(rendered.image, error_channels);
+  return rendered;
+}
 
 // Doubles the samples until the mean standard error is as asked for.
 Rendered render_reference(const Picture& picture, const ShadingInputs& inputs,
                           const Settings& settings) {
   int samples = whole_samples(settings.samples, picture.positions());
   while (true) {
-    Layers image = estimate_picture(picture, inputs, samples, settings.seed);
-    const double error = mean_of(image, error_channels);
+    Rendered rendered = render_once(picture, inputs, samples, settings.seed);
+    const double error = rendered.mean_error;
     const bool good = settings.target_error <= 0 || error <= settings.target_error;
-    if (good || 2 * samples > most_samples) return {std::move(image), samples, error};
+    if (good || 2 * samples > most_samples) return rendered;
     samples *= 2;
   }
 }
@@ -99,13 +116,53 @@ void subtract(Layers& from, const Layers& image) {
 
 std::vector<std::pair<std::string, std::string>> describe_file(const Settings& settings,
                                                                const ShadingInputs& inputs) {
-  const bool multiscatter = inputs.energy == Energy::Multiscatter;
   return {{"kiln:bake", "preview"},
           {"kiln:shape", shape_words[static_cast<size_t>(settings.shape)]},
           {"kiln:mode", mode_words[static_cast<size_t>(settings.mode)]},
-          {"kiln:models", fmt::format("distribution=ggx masking=smith-correlated fresnel=schlick "
-                                      "diffuse={} energy={}",
-                                      inputs.diffuse, multiscatter ? "multiscatter" : "single")}};
+          {"kiln:models", surface_words(inputs.surface)}};
+}
+
+// What the chosen models make of the picture that the user may not expect.
+void add_model_notes(const Settings& settings, const ShadingInputs& inputs, Baked& baked) {
+  const SurfaceChoice& surface = inputs.surface;
+  if (is_glass(inputs)) {
+    baked.notes.emplace_back("glass is clear: colours, metallic and occlusion are not read");
+    return;
+  }
+  const double greatest = inputs.albedo->greatest();
+  if (greatest > 1 + 1e-3) {
+    baked.notes.push_back(
+        fmt::format("{} with {} reflects up to {:.3g} times what it receives; no energy is added "
+                    "where it gains",
+                    surface.distribution, surface.masking, greatest));
+  }
+  if (settings.mode != PreviewBake::Mode::Reference && surface.distribution != "ggx") {
+    baked.notes.push_back(
+        fmt::format("split-sum: the prefiltered environment is that of ggx, its terms are those of "
+                    "{} with {}",
+                    surface.distribution, surface.masking));
+  }
+}
+
+void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& reference,
+                 Baked& baked) {
+  baked.figures = {{"samples", reference.samples}, {"mean standard error", reference.mean_error}};
+  if (is_glass(inputs)) baked.figures.emplace_back("energy lost", reference.lost);
+  if (settings.target_error > 0 && reference.mean_error > settings.target_error) {
+    baked.notes.push_back(fmt::format("mean standard error {:.3g} after {} samples, asked for {}",
+                                      reference.mean_error, reference.samples,
+                                      settings.target_error));
+  }
+}
+
+// Words that are listed but cannot be rendered together.
+void check_models(const Settings& settings, const ShadingInputs& inputs) {
+  check_surface(inputs.surface);
+  if (is_glass(inputs) && settings.mode != PreviewBake::Mode::Reference) {
+    throw Error(Fault::Usage, fmt::format("bsdf: glass is rendered in mode reference only, found "
+                                          "mode {}",
+                                          mode_words[static_cast<size_t>(settings.mode)]));
+  }
 }
 
 }  // namespace
@@ -136,27 +193,24 @@ Needs PreviewBake::needs(const Settings& settings) {
 
 Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const Picture picture = make_picture(settings, *ingredients.material);
-  const ShadingInputs inputs{
-      ingredients.light, ingredients.albedo, ingredients.diffuse,
-      ingredients.energy_multiscatter ? Energy::Multiscatter : Energy::Single};
+  const ShadingInputs inputs{ingredients.light, ingredients.albedo, ingredients.surface};
+  check_models(settings, inputs);
   Baked baked;
+  add_model_notes(settings, inputs, baked);
   Layers image;
   if (settings.mode != Mode::Reference) image = approximate_picture(picture, inputs);
   if (settings.mode != Mode::SplitSum) {
     Rendered reference = render_reference(picture, inputs, settings);
-    baked.figures = {{"samples", reference.samples}, {"mean standard error", reference.mean_error}};
-    if (settings.target_error > 0 && reference.mean_error > settings.target_error) {
-      baked.notes.push_back(fmt::format("mean standard error {:.3g} after {} samples, asked for {}",
-                                        reference.mean_error, reference.samples,
-                                        settings.target_error));
-    }
+    add_figures(settings, inputs, reference, baked);
     if (settings.mode == Mode::Reference) {
       image = std::move(reference.image);
     } else {
       subtract(image, reference.image);
     }
   }
-  baked.artifacts.push_back({"", "", std::move(image), "", describe_file(settings, inputs)});
+  Artifact& picture_made = baked.artifacts.emplace_back();
+  picture_made.image = std::move(image);
+  picture_made.attributes = describe_file(settings, inputs);
   return baked;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "kiln/bake/products.h"
 #include "picture.h"
 
@@ -12,16 +10,16 @@ namespace kiln {
 struct ShadingInputs {
   const Light* light;
   const AlbedoTable* albedo;
-  std::string diffuse;  ///< a name on the list of diffuse models
-  Energy energy;
+  SurfaceChoice surface;
 };
-
-/// Independent scramblings of the point set, from which standard errors are found.
-inline constexpr int repetitions = 8;
 
 /// The least number of directions per texel, not below `wanted`, that fills all repetitions and
 /// positions with whole points (a point gives two directions).
 int whole_samples(int wanted, int positions);
+
+/// Whether these models have the fused loop of estimate.h: GGX with correlated Smith masking and
+/// Schlick's Fresnel over any diffuse model, with Kulla and Conty's energy or none.
+bool has_fused_loop(const SurfaceChoice& surface);
 
 /// Reference: planes R G B A stderr.R stderr.G stderr.B.
 Layers estimate_picture(const Picture& picture, const ShadingInputs& inputs, int samples, int seed);

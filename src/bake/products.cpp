@@ -55,8 +55,9 @@ LightMade make_light(Layers latlong, const LightSettings& settings) {
   return {light, describe(fixed, settings.fix)};
 }
 
-std::shared_ptr<const AlbedoTable> make_albedo_table() {
-  return std::make_shared<const AlbedoTable>(AlbedoTable::build());
+std::shared_ptr<const AlbedoTable> make_albedo_table(const SurfaceChoice& surface) {
+  return std::make_shared<const AlbedoTable>(
+      AlbedoTable::build({surface.distribution, surface.masking, surface.distribution_shape}));
 }
 
 }  // namespace kiln

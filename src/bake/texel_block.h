@@ -20,6 +20,12 @@ struct TexelValues {
 
 inline constexpr int svbrdf_planes = 11;
 
+/// Planes [first, last) of them.
+struct PlaneRange {
+  int first = 0, last = svbrdf_planes;
+};
+inline constexpr PlaneRange relief_planes{6, 10};  ///< roughness and normal
+
 /// The planes of an SVBRDF in one order, for loops over all of them.
 inline std::array<const Plane*, svbrdf_planes> planes_of(const Svbrdf& s) {
   return {&s.diffuse_color[0],

@@ -48,6 +48,21 @@ void MaterialOptions::declare(CLI::App& app) {
   }
 }
 
+void MaterialOptions::declare_models(CLI::App& app) {
+  const Params<SurfaceChoice> params = surface_params();
+  models.reserve(params.size());
+  for (const Param<SurfaceChoice>& param : params) {
+    const ParamFacts& facts = param.facts;
+    models.emplace_back(facts.name, "");
+    const bool word = facts.kind == ParamFacts::Kind::Word;
+    const std::string choices =
+        word ? fmt::format(": {}", fmt::join(facts.choices, ", ")) : std::string();
+    app.add_option("--" + kebab(facts.name), models.back().second,
+                   fmt::format("{}{}", facts.meaning, choices))
+        ->type_name(word ? "WORD" : "NUMBER");
+  }
+}
+
 void MaterialOptions::add_to(Pipeline& pipeline) const {
   SetChoice set;
   if (is_material_file(path)) {
@@ -60,6 +75,9 @@ void MaterialOptions::add_to(Pipeline& pipeline) const {
   }
   for (const std::string& scheme : naming) find_naming_scheme(scheme);
   apply_reading(reading, set);
+  for (const auto& [key, text] : models) {
+    if (!text.empty()) assign(surface_params(), pipeline.material.surface, key, text);
+  }
   pipeline.sets.push_back(std::move(set));
 }
 

@@ -14,7 +14,12 @@ struct MaterialOptions {
   std::vector<std::string> naming;
   std::vector<std::pair<std::string, std::string>> reading;  ///< keys of the set's block
 
+  std::vector<std::pair<std::string, std::string>> models;  ///< keys of the material block
+
   void declare(CLI::App& app);
+
+  /// Options for the models that the maps feed.
+  void declare_models(CLI::App& app);
 
   /// Puts the sets of this material, and its model, into the pipeline.
   /// @error Fault::Usage for unknown words, Fault::Input when the file cannot be read

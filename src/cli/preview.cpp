@@ -42,6 +42,7 @@ Action declare(CLI::App& app) {
       ->type_name("FILE");
   arguments->options = std::make_unique<BakeOptions>(app, "preview", std::vector<std::string>{});
   arguments->material.declare(app);
+  arguments->material.declare_models(app);
   arguments->environment.declare(app, "");
   return [arguments](const Globals& globals) { return run(*arguments, globals); };
 }

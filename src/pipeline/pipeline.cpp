@@ -182,12 +182,15 @@ SetChoice read_set(const Node& node, const Reading& reading) {
 
 MaterialChoice read_material(const Node& node) {
   MaterialChoice material;
+  material.place = node.place;
   const std::string workflow = text_at(node, "workflow", "auto");
   if (kebab(workflow) != "auto") material.workflow = parse_workflow(workflow);
   with(node, "specular",
        [&](const Node& word) { material.specular = parse_specular_encoding(word.text); });
-  material.diffuse = kebab(text_at(node, "diffuse", material.diffuse));
-  material.multiscatter = kebab(text_at(node, "energy", "multiscatter")) == "multiscatter";
+  for (const Param<SurfaceChoice>& param : surface_params()) {
+    with(node, param.facts.name,
+         [&](const Node& word) { param.assign(material.surface, word.text); });
+  }
   return material;
 }
 

@@ -193,6 +193,7 @@ Plan make_plan(const Pipeline& pipeline, const fs::path& output) {
 
   Mistakes mistakes;
   plan_sets(pipeline, plan, mistakes);
+  attempt(mistakes, plan.material.place, [&] { check_surface(plan.material.surface); });
   std::vector<Prepared> bakes;
   for (const BakeChoice& choice : pipeline.bakes) {
     attempt(mistakes, choice.place, [&] { bakes.push_back(prepare(pipeline, choice, mistakes)); });

@@ -65,7 +65,7 @@ class Runner {
     for (size_t i = 0; i < lights_.size(); ++i) {
       lights_[i].set_maker([this, i] { return load(i); });
     }
-    albedo_.set_maker(make_albedo_table);
+    albedo_.set_maker([this] { return make_albedo_table(plan_.material.surface); });
     for (const Task& task : plan.tasks) count_readers(task);
   }
 
@@ -150,8 +150,7 @@ class Runner {
 
   void bake(const Task& task, TaskRecord& record) {
     Ingredients ingredients;
-    ingredients.energy_multiscatter = plan_.material.multiscatter;
-    ingredients.diffuse = plan_.material.diffuse;
+    ingredients.surface = plan_.material.surface;
     if (task.needs.material) ingredients.material = &sets_[*task.set].get().svbrdf;
     if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
     if (task.needs.albedo) ingredients.albedo = albedo_.get().get();

@@ -149,17 +149,13 @@ BlockFacts map_block() {
 }
 
 BlockFacts material_block() {
-  return {"material",
-          "the model that the maps feed",
-          {word("workflow", workflow_words(), "auto", "which maps there are"),
-           word("distribution", {"ggx"}, "ggx", "distribution of microfacet normals"),
-           word("masking", {"smith-correlated"}, "smith-correlated", "masking and shadowing"),
-           word("fresnel", {"schlick"}, "schlick", "Fresnel reflectance"),
-           word("diffuse", {"lambert", "eon"}, "eon", "diffuse reflection"),
-           word("energy", {"multiscatter", "none"}, "multiscatter",
-                "energy of light that scatters more than once"),
-           word("specular", words(specular_encoding_names), "",
-                "what the numbers of a specular map are")}};
+  BlockFacts block{"material",
+                   "the model that the maps feed",
+                   {word("workflow", workflow_words(), "auto", "which maps there are"),
+                    word("specular", words(specular_encoding_names), "",
+                         "what the numbers of a specular map are")}};
+  for (const Param<SurfaceChoice>& param : surface_params()) block.keys.push_back({param.facts});
+  return block;
 }
 
 BlockFacts any_bake_block() {

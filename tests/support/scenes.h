@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+
 #include "kiln/bake/bake.h"
 #include "kiln/bake/products.h"
 #include "kiln/image/projection.h"
@@ -50,22 +52,31 @@ inline Layers constant_latlong(double radiance) {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Bakes a preview of `material` in `latlong` with the given settings; returns the image.
-inline Layers preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
-                      const std::string& diffuse = "eon") {
+/// Bakes a preview of `material` in `latlong` with the given settings.
+inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
+                          const SurfaceChoice& surface = {}) {
   const auto recipe = make_recipe("preview");
   for (const auto& [name, value] : settings) recipe->set(name, value);
   LightSettings light_settings;
   light_settings.prefiltered = recipe->needs().prefiltered;
   light_settings.size = 32;
   const LightMade made = make_light(latlong, light_settings);
-  static const auto albedo = make_albedo_table();
+  static std::map<std::string, std::shared_ptr<const AlbedoTable>> albedos;
+  auto& albedo = albedos[surface.distribution + surface.masking];
+  if (!albedo) albedo = make_albedo_table(surface);
   Ingredients ingredients;
   ingredients.material = &material;
   ingredients.light = made.light.get();
   ingredients.albedo = albedo.get();
-  ingredients.diffuse = diffuse;
-  return recipe->bake(ingredients).artifacts.at(0).image;
+  ingredients.surface = surface;
+  return recipe->bake(ingredients);
+}
+
+inline Layers preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
+                      const std::string& diffuse = "eon") {
+  SurfaceChoice surface;
+  surface.diffuse = diffuse;
+  return bake_preview(material, latlong, settings, surface).artifacts.at(0).image;
 }
 
 inline double mean(const Plane& plane) {

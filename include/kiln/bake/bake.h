@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/bake/surface_choice.h"
 #include "kiln/core/param.h"
 #include "kiln/image/layers.h"
 
@@ -45,8 +46,7 @@ struct Ingredients {
   const Svbrdf* material = nullptr;
   const Light* light = nullptr;
   const AlbedoTable* albedo = nullptr;
-  bool energy_multiscatter = true;  ///< material: energy
-  std::string diffuse = "eon";      ///< material: diffuse
+  SurfaceChoice surface = {};  ///< the models that the maps feed
 };
 
 /// One product: an image or a text. `name` is empty for the bake's single product (its file is the

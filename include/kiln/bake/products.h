@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kiln/bake/surface_choice.h"
 #include "kiln/image/layers.h"
 
 namespace kiln {
@@ -31,7 +32,9 @@ struct LightMade {
 /// @param latlong  planes R G B, linear, in the working space
 LightMade make_light(Layers latlong, const LightSettings& settings);
 
-/// The directional-albedo table that energy coupling and split-sum previews read.
-std::shared_ptr<const AlbedoTable> make_albedo_table();
+/// The albedo table of the lobe of these models, which energy terms, coupling and split-sum
+/// previews read.
+/// @error Fault::Usage where the models do not fit each other
+std::shared_ptr<const AlbedoTable> make_albedo_table(const SurfaceChoice& surface = {});
 
 }  // namespace kiln

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/bake/surface_choice.h"
 #include "kiln/color/color.h"
 #include "kiln/io/image_file.h"
 #include "kiln/material/workflow.h"
@@ -58,8 +59,8 @@ struct SetChoice {
 struct MaterialChoice {
   std::optional<Workflow> workflow;  ///< empty: guessed from the maps
   SpecularEncoding specular = SpecularEncoding::Level;
-  std::string diffuse = "eon";
-  bool multiscatter = true;
+  SurfaceChoice surface;  ///< the models that the maps feed
+  Place place = {};
 };
 
 struct OutputChoice {

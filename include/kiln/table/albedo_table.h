@@ -22,7 +22,8 @@ struct AlbedoRow {
 /// Nodes lie on the borders. The axes spend them where the lobe changes: roughness is v^2, and the
 /// cosine axis is u = mu (1 + r) / (mu + r), which bends at mu about r.
 ///
-/// @accuracy  bilinear lookup of E, GGX with height-correlated Smith masking: 4e-4 for mu >= 0.02 and
+/// @accuracy  bilinear lookup of E, GGX with height-correlated Smith masking: 4e-4 for mu >= 0.02
+/// and
 ///            roughness >= 0.1; 4e-4 rms; 1.5e-2 at worst, where mu < 1e-3 and roughness < 0.02
 class AlbedoTable {
  public:

@@ -102,8 +102,8 @@ TEST(MaterialFile, HoldsOneSetAndItsModel) {
   const MaterialFile read = read_material_file(file);
   EXPECT_EQ(read.set.name, "hero");
   EXPECT_EQ(read.set.maps.size(), 1u);
-  EXPECT_EQ(read.material.diffuse, "lambert");
-  EXPECT_FALSE(read.material.multiscatter);
+  EXPECT_EQ(read.material.surface.diffuse, "lambert");
+  EXPECT_EQ(read.material.surface.energy, "none");
 }
 
 TEST(BakeChoice, FromTheCommandLineIsCheckedLikeAFile) {

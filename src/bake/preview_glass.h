@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "preview_rows.h"
+
+namespace kiln {
+
+// Glass: the picture's body is a solid, clear dielectric whose boundary is rough as its maps say
+// (roughness and normals; colours are not read). Paths start at the viewer, are reflected or
+// refracted wherever they meet the boundary, by the BSDF's own sampler, and end in the
+// environment when they leave.
+//
+// The ball is solid. The plane is the front of a thin slab: its back is smooth and parallel, and a
+// path meets it where it met the front. A direction that a bent normal sends through the wrong
+// side of the true surface is mirrored at that surface, so no light is lost to normal maps.
+// Light is lost where the single-bounce microfacet model loses it, and with paths that are still
+// inside after most_bounces; what is lost is measured and reported.
+
+inline constexpr int most_bounces = 64;
+
+struct GlassPicture {
+  Layers image;     ///< planes R G B A stderr.R stderr.G stderr.B
+  double lost = 0;  ///< mean share of the light that no path carries out [0..1]
+};
+
+/// @param samples  paths for each pixel
+GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs, int samples,
+                            int seed);
+
+}  // namespace kiln

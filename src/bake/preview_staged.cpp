@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preview_staged.h"
+
+namespace kiln {
+namespace {
+
+using F = WideFloat;
+
+DirectionTerms average_terms(const AlbedoTable& table, const AlbedoRow<F>& row) {
+  return {table.average(row), table.average_edge(row)};
+}
+
+// As in the fused loop: the lobe's share of what is reflected, never without the other.
+void set_specular_share(StagedPoint& point) {
+  const WideVec single{reflectance_of(point.channels[0], point.terms_o),
+                       reflectance_of(point.channels[1], point.terms_o),
+                       reflectance_of(point.channels[2], point.terms_o)};
+  const F left = max(F(1.0f) - max_component(point.total_o), F(0.0f));
+  const F more = max(luminance(point.total_o - single), F(0.0f));
+  const F spread = more + luminance(point.diffuse_color) * left;
+  const F lobe = luminance(single);
+  point.specular_share = clamp(lobe / max(lobe + spread, F(1e-6f)), F(0.1f), F(0.9f));
+}
+
+// One direction from the texel's own density; it may lie below the horizon.
+WideVec sample_direction(const StagedPoint& point, const SurfaceStages& stages, const Vec2<F>& u) {
+  const F share = point.specular_share;
+  const auto specular = u.x < share;
+  const F x = select(specular, u.x / share, (u.x - share) / (F(1.0f) - share));
+  const Vec2<F> v{min(x, F(1 - 0x1p-24f)), u.y};
+  const WideVec wm = stages.sample_normal(point, v);
+  const WideVec mirrored = wm * (F(2.0f) * dot(point.wo, wm)) - point.wo;
+  return select(specular, mirrored, square_to_cosine(v));
+}
+
+void append(DirectionBlock& block, WideVec wi, const WideVec& radiance, F light_density) {
+  const auto above = wi.z > F(1e-6f);
+  const int i = block.count++;
+  wi.z = max(wi.z, F(1e-6f));
+  block.wi[i] = wi;
+  block.light[i] = select(above, radiance, WideVec{F(0.0f), F(0.0f), F(0.0f)});
+  block.light_density[i] = light_density;
+}
+
+// One direction from the environment and one from the texel for each point.
+void fill_block(const StagedPoint& point, const SurfaceStages& stages,
+                const Environment& environment, const SobolPoints& points, int first, int last,
+                const std::array<WideUint, 4>& seeds, DirectionBlock& block) {
+  block.count = 0;
+  for (int i = first; i < last; ++i) {
+    const auto u = [&](int d) {
+      return unit_float(owen_scramble_reversed<WideUint>(WideUint(points[i][d]), seeds[d]));
+    };
+    const LightSample<F> light = environment.sample(Vec2<F>{u(0), u(1)});
+    append(block, point.frame.to_local(light.direction), light.radiance, light.density);
+    const WideVec wi = sample_direction(point, stages, {u(2), u(3)});
+    const Arriving<F> own = environment.arriving(point.frame.to_world(wi));
+    append(block, wi, own.radiance, own.density);
+  }
+}
+
+void run_stages(const StagedPoint& point, const SurfaceStages& stages, const AlbedoTable& table,
+                DirectionBlock& block) {
+  stages.add_lobe(point, block);
+  stages.add_fresnel(point, block);
+  stages.add_energy(point, table, block);
+  stages.add_diffuse(point, block);
+  stages.couple(point, block);
+}
+
+WideVec sum_block(const StagedPoint& point, const DirectionBlock& block) {
+  WideVec sum{F(0.0f), F(0.0f), F(0.0f)};
+  for (int i = 0; i < block.count; ++i) {
+    const F weight = block.wi[i].z / (block.own_density[i] + block.light_density[i]);
+    sum += (block.specular[i] + block.diffuse[i] * point.occlusion) * block.light[i] * weight;
+  }
+  return sum;
+}
+
+}  // namespace
+
+StagedPoint make_staged_point(const TexelValues<F>& texel, const Placement<F>& placement,
+                              const AlbedoTable& table, const SurfaceStages& stages) {
+  StagedPoint point;
+  point.roughness = clamp(texel.roughness, F(0.0f), F(1.0f));
+  point.alpha = to_alpha(point.roughness);
+  point.shape = stages.shape;
+  point.occlusion = texel.occlusion;
+  point.diffuse_color = texel.diffuse_color;
+  const WideVec normal = bend_toward(placement.frame.to_world(texel.normal), placement.to_viewer);
+  point.frame = frame_around(normal);
+  point.wo = point.frame.to_local(placement.to_viewer);
+  point.wo.z = max(point.wo.z, F(1e-3f));
+  point.row = table.row(point.roughness);
+  point.terms_o = {table.terms(point.row, point.wo.z), table.edge(point.row, point.wo.z)};
+  point.average = average_terms(table, point.row);
+  stages.set_fresnel(stages.numbers, texel.f0, point);
+  stages.set_energy(point);
+  set_specular_share(point);
+  return point;
+}
+
+WideVec sum_points(const StagedPoint& point, const SurfaceStages& stages,
+                   const Environment& environment, const AlbedoTable& table,
+                   const SobolPoints& points, int first, int last,
+                   const std::array<WideUint, 4>& seeds) {
+  constexpr int step = DirectionBlock::capacity / 2;
+  WideVec sum{F(0.0f), F(0.0f), F(0.0f)};
+  DirectionBlock block;
+  for (int from = first; from < last; from += step) {
+    fill_block(point, stages, environment, points, from, std::min(from + step, last), seeds, block);
+    run_stages(point, stages, table, block);
+    sum += sum_block(point, block);
+  }
+  return sum;
+}
+
+WideVec approximate(const StagedPoint& point, const SurfaceStages& stages, const Light& light) {
+  const WideVec mirrored{-point.wo.x, -point.wo.y, point.wo.z};
+  const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
+  const WideVec diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
+  const WideVec specular = light.chain->lookup(point.frame.to_world(mirrored), point.roughness);
+  return specular * point.total_o + light.irradiance->lookup(point.frame.z) * diffuse;
+}
+
+}  // namespace kiln
