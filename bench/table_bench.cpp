@@ -26,7 +26,11 @@ BENCHMARK_CAPTURE(table, split_sum, "split-sum")
     ->Range(64, 1024)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(table, ior, "ior")->Arg(32)->Arg(64)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(table, ior, "ior")
+    ->Arg(32)
+    ->Arg(64)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(table, ltc, "ltc")->Arg(64)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 // Single integrals, one thread: entries/s at the order of tables.

@@ -17,10 +17,10 @@ struct LutBake {
   static constexpr Product product = Product::Numbers;
   struct Settings {
     std::string table = "split-sum", preset;
-    Size size{};    ///< 0: the preset's, or 128x128
-    int depth = 0;  ///< 0: 16
-    std::string axes, align, origin, channels;            ///< empty: the preset's or the table's
-    std::string distribution, masking, fresnel;           ///< likewise
+    Size size{};                                 ///< 0: the preset's, or 128x128
+    int depth = 0;                               ///< 0: 16
+    std::string axes, align, origin, channels;   ///< empty: the preset's or the table's
+    std::string distribution, masking, fresnel;  ///< likewise
     double shape = 0;
     FresnelChannel<double> fresnel_numbers = {};
     bool exact = false;

@@ -33,14 +33,11 @@ struct FresnelNumber {
   const char* name;
   double FresnelChannel<double>::*member;
 };
-constexpr FresnelNumber fresnel_numbers[] = {{"f0", &FresnelChannel<double>::f0},
-                                             {"f90", &FresnelChannel<double>::f90},
-                                             {"f82", &FresnelChannel<double>::f82},
-                                             {"edge_tint", &FresnelChannel<double>::edge_tint},
-                                             {"ior", &FresnelChannel<double>::ior},
-                                             {"extinction", &FresnelChannel<double>::extinction},
-                                             {"dip", &FresnelChannel<double>::dip},
-                                             {"exponent", &FresnelChannel<double>::exponent}};
+constexpr FresnelNumber fresnel_numbers[] = {
+    {"f0", &FresnelChannel<double>::f0},   {"f90", &FresnelChannel<double>::f90},
+    {"f82", &FresnelChannel<double>::f82}, {"edge_tint", &FresnelChannel<double>::edge_tint},
+    {"ior", &FresnelChannel<double>::ior}, {"extinction", &FresnelChannel<double>::extinction},
+    {"dip", &FresnelChannel<double>::dip}, {"exponent", &FresnelChannel<double>::exponent}};
 
 const ModelFacts* find_fresnel(const std::string& name) {
   for (const ModelFacts& model : all_models()) {
@@ -75,8 +72,7 @@ Param<Settings> fresnel_param(const FresnelNumber& number) {
 
 // "128", "128x32": shown as the kind's default.
 Param<Settings> size_param() {
-  Param<Settings> param =
-      extent_param("size", &Settings::size, {2, 8192}, "entries along x and y");
+  Param<Settings> param = extent_param("size", &Settings::size, {2, 8192}, "entries along x and y");
   param.facts.default_text = "128x128, or the preset's";
   return param;
 }
@@ -153,8 +149,8 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 void describe_axes(const Lut& lut, Attributes& attributes) {
   std::vector<std::string> axes;
   for (size_t a = 0; a < lut.axes.size(); ++a) {
-    axes.push_back(fmt::format("{}={} ({})", "xyz"[a], lut.axes[a].mapping.name,
-                               lut.axes[a].mapping.meaning));
+    axes.push_back(
+        fmt::format("{}={} ({})", "xyz"[a], lut.axes[a].mapping.name, lut.axes[a].mapping.meaning));
   }
   attributes.emplace_back("kiln:axes", fmt::format("{}", fmt::join(axes, ", ")));
   attributes.emplace_back("kiln:alignment", lut.recipe.alignment == Alignment::Center
@@ -182,9 +178,9 @@ Attributes describe_file(const Settings& settings, const Lut& lut) {
                             find_channel(lut.recipe.channels[c]).meaning);
   }
   if (lut.fit_error > 0) {
-    attributes.emplace_back("kiln:fit_error",
-                            fmt::format("{:.3g}, mean share of light that the fit sends elsewhere",
-                                        lut.fit_error));
+    attributes.emplace_back(
+        "kiln:fit_error",
+        fmt::format("{:.3g}, mean share of light that the fit sends elsewhere", lut.fit_error));
     return attributes;
   }
   attributes.emplace_back("kiln:entry_error",
@@ -252,7 +248,8 @@ Baked LutBake::bake(const Settings& settings, const Ingredients&) {
   baked.figures = {{"entry error", lut.entry_error},
                    {"lookup error", lut.lookup_error},
                    {"lookup error, mu >= 0.05 and roughness >= 0.1", lut.lookup_error_inner}};
-  if (lut.fit_error > 0) baked.figures = {{"fit error, mean share of light elsewhere", lut.fit_error}};
+  if (lut.fit_error > 0)
+    baked.figures = {{"fit error, mean share of light elsewhere", lut.fit_error}};
   if (!settings.preset.empty()) baked.notes = find_lut_preset(settings.preset).cautions;
   baked.artifacts.push_back(make_artifact(settings, lut));
   return baked;
@@ -343,9 +340,10 @@ std::vector<NamedText> list_lut_channels() {
   for (const ChannelFacts& channel : all_channels()) {
     std::vector<std::string> over;
     for (const Quantity quantity : channel.over) over.push_back(quantity_name(quantity));
-    channels.push_back({channel.name,
-                        channel.meaning,
-                        {{"over", over.empty() ? "nothing" : fmt::format("{}", fmt::join(over, ", "))}}});
+    channels.push_back(
+        {channel.name,
+         channel.meaning,
+         {{"over", over.empty() ? "nothing" : fmt::format("{}", fmt::join(over, ", "))}}});
   }
   return channels;
 }

@@ -30,14 +30,16 @@ std::vector<LutPreset> make_list() {
        {{"split-sum", with(centred, "scale,bias,sheen-clamped", "256x256")},
         {"sheen", with(centred, "zero,zero,sheen-clamped", "256x256")}},
        {"the Khronos sampler's cloth table applies a uniform-hemisphere estimator to importance "
-        "samples, with roughness in place of its square (0.320 at (0.5, 0.5), where the integral is "
+        "samples, with roughness in place of its square (0.320 at (0.5, 0.5), where the integral "
+        "is "
         "0.2296); this one is the integral",
         "8 bits round to 2e-3; --type uint16 keeps the entries"}},
       {"filament",
        "Filament, single scattering: F0 * R + G",
        "half",
        {{"split-sum", with(centred_flipped, "scale,bias", "128x128")}},
-       {"cmgen writes each row for the roughness of the next one (up to 0.02 off at 128 rows); this "
+       {"cmgen writes each row for the roughness of the next one (up to 0.02 off at 128 rows); "
+        "this "
         "one holds each row's own"}},
       {"filament-multiscatter",
        "Filament, multiple scattering: mix(R, G, F0)",
@@ -54,9 +56,8 @@ std::vector<LutPreset> make_list() {
       {"three",
        "three.js: transposed, roughness along x",
        "half",
-       {{"split-sum",
-         with({{"axes", "roughness,mu"}, {"align", "center"}, {"origin", "top"}}, "scale,bias",
-              "16x16")}},
+       {{"split-sum", with({{"axes", "roughness,mu"}, {"align", "center"}, {"origin", "top"}},
+                           "scale,bias", "16x16")}},
        {}},
       {"babylon",
        "Babylon.js: mix(R, G, F0), cloth in B, RGBD",
@@ -78,16 +79,14 @@ std::vector<LutPreset> make_list() {
       {"unity-hdrp",
        "Unity HDRP: mix(R, G, F0) over sqrt(n.v), Disney's diffuse less 1/2 in B",
        "rgb10a2",
-       {{"split-sum",
-         with({{"axes", "sqrt-mu,roughness"}, {"align", "corner"}, {"origin", "top"}},
-              "fresnel,total,unity-disney", "64x64")}},
+       {{"split-sum", with({{"axes", "sqrt-mu,roughness"}, {"align", "corner"}, {"origin", "top"}},
+                           "fresnel,total,unity-disney", "64x64")}},
        {"10 bits round to 5e-4"}},
       {"materialx",
        "MaterialX: F0 * R + F90 * G over alpha, cloth in B",
        "float",
-       {{"split-sum",
-         with({{"axes", "mu,alpha"}, {"align", "center"}, {"origin", "top"}}, "scale,bias,sheen",
-              "64x64")}},
+       {{"split-sum", with({{"axes", "mu,alpha"}, {"align", "center"}, {"origin", "top"}},
+                           "scale,bias,sheen", "64x64")}},
        {"MaterialX names alpha 'roughness' in its nodes; the y axis is that alpha"}},
       {"cycles",
        "Cycles: albedo over roughness and n.v, entries on the borders",
@@ -115,7 +114,8 @@ std::vector<LutPreset> make_list() {
         {"split-sum",
          with({{"axes", "roughness,sqrt-one-minus-mu"}, {"align", "corner"}, {"origin", "top"}},
               "total,bias,zero,sphere", "64x64")}},
-       {"the published magnitudes come from 32 x 32 samples and err by up to 0.066; these are exact"}},
+       {"the published magnitudes come from 32 x 32 samples and err by up to 0.066; these are "
+        "exact"}},
       {"openpbr",
        "Adobe's OpenPBR: 1 - E over n.v and sqrt(alpha), separable masking",
        "uint16",

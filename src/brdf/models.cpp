@@ -42,14 +42,6 @@ std::vector<ModelFacts> collect() {
   return facts;
 }
 
-std::vector<std::string> maskings_of(const std::string& distribution) {
-  std::vector<std::string> names;
-  for_each_lobe([&]<template <class> class Distribution, template <class> class Masking>() {
-    if (Distribution<double>::name == distribution) names.emplace_back(Masking<double>::name);
-  });
-  return names;
-}
-
 void require_listed(const std::string& family, std::string_view name) {
   const std::vector<std::string> known = model_names(family);
   if (std::find(known.begin(), known.end(), kebab(name)) == known.end()) {
@@ -72,13 +64,21 @@ std::vector<std::string> model_names(std::string_view family) {
   return names;
 }
 
+std::vector<std::string> fitting_maskings(std::string_view distribution) {
+  std::vector<std::string> names;
+  for_each_lobe([&]<template <class> class Distribution, template <class> class Masking>() {
+    if (Distribution<double>::name == distribution) names.emplace_back(Masking<double>::name);
+  });
+  return names;
+}
+
 void refuse_lobe(std::string_view distribution, std::string_view masking) {
   require_listed("distribution", distribution);
   require_listed("masking", masking);
   throw Error(
       Fault::Usage,
       fmt::format("masking '{}' does not fit distribution '{}', expected one of {}", masking,
-                  distribution, fmt::join(maskings_of(kebab(distribution)), ", ")));
+                  distribution, fmt::join(fitting_maskings(kebab(distribution)), ", ")));
 }
 
 }  // namespace kiln

@@ -15,6 +15,7 @@
 #include "kiln/material/naming.h"
 #include "kiln/pipeline/pipeline.h"
 #include "kiln/pipeline/schema.h"
+#include "kiln/validate/model_measure.h"
 #include "verb.h"
 
 namespace kiln {
@@ -34,15 +35,103 @@ struct Kind {
   std::string name;
   std::string meaning;
   std::function<std::vector<Item>(const Globals&)> items;
+  /// Adds what takes time to find out. Kinds that have this are listed with all their facts.
+  std::function<void(Item&)> measure = {};
 };
+
+Key key_of(const ModelParam& param) {
+  Key key;
+  key.facts.name = std::string(param.name);
+  key.facts.kind = ParamFacts::Kind::Number;
+  key.facts.min = param.min;
+  key.facts.max = param.max;
+  key.facts.default_text = number_text(param.initial);
+  key.facts.meaning = std::string(param.meaning);
+  return key;
+}
+
+std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 std::vector<Item> list_models(const Globals&) {
   std::vector<Item> items;
   for (const ModelFacts& model : all_models()) {
-    items.push_back(
-        {model.name, model.summary, {{"family", model.family}, {"source", model.source}}});
+    Item item{model.name, model.summary, {{"family", model.family}, {"source", model.source}}};
+    if (model.reciprocal) item.facts.emplace_back("reciprocal", yes_or_no(*model.reciprocal));
+    if (model.anisotropic) item.facts.emplace_back("anisotropic", yes_or_no(*model.anisotropic));
+    if (model.exact_lambda) {
+      const char* lambda = !*model.has_lambda ? "none" : *model.exact_lambda ? "exact" : "borrowed";
+      item.facts.emplace_back("Smith's Lambda", lambda);
+    }
+    if (model.one_sided)
+      item.facts.emplace_back("masking of one side", yes_or_no(*model.one_sided));
+    for (const ModelParam& param : model.params) item.keys.push_back(key_of(param));
+    items.push_back(std::move(item));
   }
   return items;
+}
+
+std::string energy_text(double greatest, double mu, double roughness) {
+  const std::string verdict = greatest > 1.001 ? "; GAINS ENERGY" : "";
+  return fmt::format("{:.4f} at n.v {:.3g}, roughness {:.2g}{}", greatest, mu, roughness, verdict);
+}
+
+std::string furnace_text(const LobeMeasure& measure) {
+  if (!measure.weak_furnace) return "none: this masking has no one-sided form";
+  const auto [least, greatest] = *measure.weak_furnace;
+  const bool passes = least > 0.997 && greatest < 1.003;
+  return fmt::format("{} ({:.4f} to {:.4f})", passes ? "passes" : "FAILS", least, greatest);
+}
+
+// The partner that a model of one family is measured with.
+Lobe measured_lobe(const std::string& family, const std::string& name) {
+  const bool cloth = name == "charlie" || name == "estevez-kulla" || name.starts_with("neubelt");
+  Lobe lobe;
+  if (cloth) lobe = {"charlie", "neubelt", 0};
+  if (family == "distribution") {
+    lobe.distribution = name;
+    const std::vector<std::string> fitting = fitting_maskings(name);
+    if (std::find(fitting.begin(), fitting.end(), lobe.masking) == fitting.end()) {
+      lobe.masking = fitting.front();
+    }
+  } else {
+    lobe.masking = name;
+  }
+  return lobe;
+}
+
+void measure_model(Item& item) {
+  const std::string family = item.facts.front().second;
+  if (family == "diffuse") {
+    const DiffuseMeasure measure = measure_diffuse(item.name);
+    item.facts.emplace_back("greatest albedo, white",
+                            energy_text(measure.greatest_albedo, measure.mu, measure.roughness));
+  }
+  if (family != "distribution" && family != "masking") return;
+  const Lobe lobe = measured_lobe(family, item.name);
+  const LobeMeasure measure = measure_lobe(lobe);
+  const std::string partner = family == "masking" ? lobe.distribution : lobe.masking;
+  item.facts.emplace_back("weak white furnace, with " + partner, furnace_text(measure));
+  item.facts.emplace_back("greatest directional albedo, F = 1",
+                          energy_text(measure.greatest_albedo, measure.mu, measure.roughness));
+}
+
+std::vector<Item> list_lobes(const Globals&) {
+  std::vector<Item> items;
+  for (const std::string& distribution : model_names("distribution")) {
+    for (const std::string& masking : fitting_maskings(distribution)) {
+      items.push_back({distribution + "," + masking,
+                       "",
+                       {{"distribution", distribution}, {"masking", masking}}});
+    }
+  }
+  return items;
+}
+
+void measure_listed_lobe(Item& item) {
+  const LobeMeasure measure = measure_lobe({item.facts[0].second, item.facts[1].second, 0});
+  item.facts = {{"weak white furnace", furnace_text(measure)},
+                {"greatest directional albedo, F = 1",
+                 energy_text(measure.greatest_albedo, measure.mu, measure.roughness)}};
 }
 
 std::vector<Item> items_of(const std::vector<NamedText>& texts) {
@@ -99,9 +188,14 @@ std::vector<Item> list_color_spaces(const Globals& globals) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> list = {
-      {"models", "distributions, masking, Fresnel and diffuse models", list_models},
-      {"tables", "what kiln lut integrates", [](const Globals&) { return items_of(list_tables()); }},
-      {"axes", "how a table's axes may run", [](const Globals&) { return items_of(list_lut_axes()); }},
+      {"models", "distributions, masking, Fresnel, diffuse and energy models, measured",
+       list_models, measure_model},
+      {"lobes", "distributions with the maskings that fit them, measured", list_lobes,
+       measure_listed_lobe},
+      {"tables", "what kiln lut integrates",
+       [](const Globals&) { return items_of(list_tables()); }},
+      {"axes", "how a table's axes may run",
+       [](const Globals&) { return items_of(list_lut_axes()); }},
       {"channels", "what a table may hold",
        [](const Globals&) { return items_of(list_lut_channels()); }},
       {"presets", "layouts of engines for kiln lut",
@@ -167,11 +261,18 @@ int print_kinds(const Globals& globals) {
 }
 
 int print_kind(const Kind& kind, const Globals& globals) {
-  const std::vector<Item> items = kind.items(globals);
+  std::vector<Item> items = kind.items(globals);
+  if (kind.measure) {
+    for (Item& item : items) kind.measure(item);
+  }
   if (globals.json) {
     Json json = Json::array();
     for (const Item& item : items) json.push_back(to_json(item));
     fmt::print("{}\n", json.dump(2));
+    return 0;
+  }
+  if (kind.measure) {
+    for (const Item& item : items) print_item(item);
     return 0;
   }
   size_t width = 0;
@@ -186,10 +287,11 @@ int print_named(const std::string& name, const Globals& globals) {
   for (const Kind& kind : kinds()) {
     known.push_back(kind.name);
     if (found && kind.name == "colour-spaces") break;  // a config is not read in vain
-    for (const Item& item : kind.items(globals)) {
+    for (Item& item : kind.items(globals)) {
       known.push_back(item.name);
       if (kebab(item.name) != kebab(name)) continue;
       found = true;
+      if (kind.measure) kind.measure(item);
       if (globals.json) {
         fmt::print("{}\n", to_json(item).dump(2));
       } else {
@@ -225,7 +327,8 @@ int run(const std::string& word, const Globals& globals) {
 Action declare(CLI::App& app) {
   const auto word = std::make_shared<std::string>();
   app.add_option("WORD", *word,
-                 "models, tables, axes, channels, presets, bakes, namings, maps, colour-spaces, schema, or "
+                 "models, lobes, tables, axes, channels, presets, bakes, namings, maps, "
+                 "colour-spaces, schema, or "
                  "the name of one")
       ->type_name("");
   return [word](const Globals& globals) { return run(*word, globals); };

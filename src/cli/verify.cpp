@@ -23,9 +23,12 @@ struct VerifyArguments {
 };
 
 Json to_json(const ChannelMatch& channel) {
-  return {{"channel", channel.channel},       {"holds", channel.quantity},
-          {"distribution", channel.distribution}, {"masking", channel.masking},
-          {"known", channel.known},           {"max_error", channel.max_error},
+  return {{"channel", channel.channel},
+          {"holds", channel.quantity},
+          {"distribution", channel.distribution},
+          {"masking", channel.masking},
+          {"known", channel.known},
+          {"max_error", channel.max_error},
           {"rms_error", channel.rms_error}};
 }
 

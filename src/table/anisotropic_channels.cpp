@@ -50,8 +50,8 @@ std::vector<std::vector<double>> make_terms(TableContext& context) {
   const size_t rows = roughnesses.size() * anisotropies.size();
   std::vector<std::vector<double>> planes(3, std::vector<double>(rows * mus.size()));
   for_rows(static_cast<int>(rows), [&](int row) {
-    const Widths widths = widths_of(roughnesses[row % roughnesses.size()],
-                                    anisotropies[row / roughnesses.size()]);
+    const Widths widths =
+        widths_of(roughnesses[row % roughnesses.size()], anisotropies[row / roughnesses.size()]);
     for (size_t i = 0; i < mus.size(); ++i) {
       const auto terms = fourier_terms(lobe, mus[i], widths);
       for (int h = 0; h < 3; ++h) planes[h][row * mus.size() + i] = terms[h];

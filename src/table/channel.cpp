@@ -47,8 +47,7 @@ const std::vector<ChannelFacts>& all_channels() {
 const ChannelFacts& find_channel(const std::string& name) {
   std::vector<std::string> known;
   for (const ChannelFacts& channel : all_channels()) {
-    const bool alias =
-        std::count(channel.aliases.begin(), channel.aliases.end(), kebab(name)) > 0;
+    const bool alias = std::count(channel.aliases.begin(), channel.aliases.end(), kebab(name)) > 0;
     if (alias || channel.name == kebab(name)) return channel;
     known.push_back(channel.name);
   }

@@ -171,8 +171,7 @@ LobeTerms LobeIntegrals::at(const LobePoint& point) const {
   // An anisotropic lobe changes over the azimuth however steep the view.
   const double aspect = std::max(point.alpha_x / point.alpha_y, point.alpha_y / point.alpha_x);
   const bool isotropic = point.alpha_x == point.alpha_y;
-  QuadratureOrder order =
-      order_of(work_->lobe, work_->quality, isotropic ? point.mu : least_mu);
+  QuadratureOrder order = order_of(work_->lobe, work_->quality, isotropic ? point.mu : least_mu);
   if (!isotropic) order.azimuths *= 1 + static_cast<int>(std::min(aspect, 16.0) / 2);
   return work_->integrate(make_view_rule(point.mu, order.azimuths), point, order.slopes);
 }

@@ -23,9 +23,8 @@ void add_terms(const PointBlock& block, const FresnelChannel<double>&, Wide* sum
 }
 
 FresnelChannel<Wide> widened(const FresnelChannel<double>& channel) {
-  return {Wide(channel.f0),        Wide(channel.f90), Wide(channel.f82),
-          Wide(channel.edge_tint), Wide(channel.ior), Wide(channel.extinction),
-          Wide(channel.dip),       Wide(channel.exponent)};
+  return {Wide(channel.f0),  Wide(channel.f90),        Wide(channel.f82), Wide(channel.edge_tint),
+          Wide(channel.ior), Wide(channel.extinction), Wide(channel.dip), Wide(channel.exponent)};
 }
 
 template <template <class> class Fresnel>

@@ -23,8 +23,8 @@ LtcLobe lobe_of(const Lobe& lobe) {
               found = [shape](double alpha, const Vec3<double>& wo, const Vec3<double>& wi) {
                 const auto distribution = Distribution<double>::make(alpha, alpha, shape);
                 const Vec3<double> wm = half_vector(wo, wi);
-                return distribution.D(wm) *
-                       Masking<double>::visibility(distribution, wo, wi, wm) * wi.z;
+                return distribution.D(wm) * Masking<double>::visibility(distribution, wo, wi, wm) *
+                       wi.z;
               };
             });
   return found;
@@ -78,17 +78,24 @@ std::vector<double> fill_sphere(TableContext& context) {
 
 void add_ltc_channels(std::vector<ChannelFacts>& list) {
   const std::vector<Quantity> plane = {Mu, Roughness};
-  list.push_back({"ltc-m11", {}, "m11: of the inverse matrix whose middle is 1", plane, fill<0>, true});
+  list.push_back(
+      {"ltc-m11", {}, "m11: of the inverse matrix whose middle is 1", plane, fill<0>, true});
   list.push_back({"ltc-m31", {}, "m31: of the inverse matrix", plane, fill<1>, true});
   list.push_back({"ltc-m13", {}, "m13: of the inverse matrix", plane, fill<2>, true});
   list.push_back({"ltc-m33", {}, "m33: of the inverse matrix", plane, fill<3>, true});
-  list.push_back({"ltc-error", {}, "error: share of light that the fit sends elsewhere", plane, fill<4>, true});
-  list.push_back({"sphere",
+  list.push_back({"ltc-error",
                   {},
-                  "sphere: form factor of a sphere cut by the horizon; its cosine 2 u - 1 along the "
-                  "roughness axis, sin^2 of its radius along sqrt(1 - n.v)",
+                  "error: share of light that the fit sends elsewhere",
                   plane,
-                  fill_sphere});
+                  fill<4>,
+                  true});
+  list.push_back(
+      {"sphere",
+       {},
+       "sphere: form factor of a sphere cut by the horizon; its cosine 2 u - 1 along the "
+       "roughness axis, sin^2 of its radius along sqrt(1 - n.v)",
+       plane,
+       fill_sphere});
 }
 
 }  // namespace kiln

@@ -285,7 +285,8 @@ std::vector<double> integrate_at(const TableRecipe& recipe, const std::vector<do
   }
   LobeCache lobes(Quality::Exact, least_mu);
   std::vector<double> values;
-  for (const auto& channel : fill_lattice(recipe, lattice, lobes, Fits::With)) values.push_back(channel[0]);
+  for (const auto& channel : fill_lattice(recipe, lattice, lobes, Fits::With))
+    values.push_back(channel[0]);
   return values;
 }
 

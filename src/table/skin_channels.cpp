@@ -18,8 +18,8 @@ std::vector<std::vector<double>> make_colors(TableContext& context) {
   const auto& cosines = context.grid.of(Cosine);
   const auto& curvatures = context.grid.of(Curvature);
   const int order = order_for(context.lobes.quality());
-  std::vector<std::vector<double>> planes(
-      3, std::vector<double>(cosines.size() * curvatures.size()));
+  std::vector<std::vector<double>> planes(3,
+                                          std::vector<double>(cosines.size() * curvatures.size()));
   for_rows(static_cast<int>(curvatures.size()), [&](int j) {
     for (size_t i = 0; i < cosines.size(); ++i) {
       const Vec3<double> color = integrate_skin(cosines[i], curvatures[j], order);

@@ -68,9 +68,9 @@ struct SlopeSpread<Charlie<Wide>> {  // peaks at grazing microfacets: no scale b
 
 /// Lane for lane of azimuths: what the integrand needs of view and azimuth.
 struct AzimuthLanes {
-  Vec3<Wide> wo;              // frame of the distribution
-  Wide cos_q, sin_q;          // of the slope's azimuth, same frame
-  Wide mu, sine, cos_p;       // view frame
+  Vec3<Wide> wo;         // frame of the distribution
+  Wide cos_q, sin_q;     // of the slope's azimuth, same frame
+  Wide mu, sine, cos_p;  // view frame
   Wide tau_cos_p, t_max, inverse_t_max;
 };
 

@@ -52,11 +52,8 @@ std::string described(const Lut& lut, const std::string& file) {
 }
 
 std::vector<std::vector<double>> check_points(const Lut& lut) {
-  constexpr double positions[5][3] = {{0.1, 0.2, 0.3},
-                                      {0.3, 0.5, 0.6},
-                                      {0.5, 0.35, 0.45},
-                                      {0.7, 0.8, 0.15},
-                                      {0.95, 0.65, 0.85}};
+  constexpr double positions[5][3] = {
+      {0.1, 0.2, 0.3}, {0.3, 0.5, 0.6}, {0.5, 0.35, 0.45}, {0.7, 0.8, 0.15}, {0.95, 0.65, 0.85}};
   std::vector<std::vector<double>> points;
   for (const auto& row : positions) {
     std::vector<double> point;
@@ -82,8 +79,8 @@ std::string checks(const Lut& lut) {
 
 void check_sampled(const Lut& lut) {
   if (lut.entries.size() > 4) {
-    throw Error(Fault::Usage, fmt::format("snippet: found {} channels, a sampler holds 4",
-                                          lut.entries.size()));
+    throw Error(Fault::Usage,
+                fmt::format("snippet: found {} channels, a sampler holds 4", lut.entries.size()));
   }
 }
 
@@ -100,7 +97,8 @@ std::string glsl(const Lut& lut, bool rgbd) {
   const size_t n = lut.entries.size();
   const std::string type = n == 1 ? "float" : fmt::format("vec{}", n);
   const std::string swizzle = std::string("rgba").substr(0, n);
-  std::string text = "// Linear filtering, clamped to the edge; no sRGB; the first row lies at v = 0.\n";
+  std::string text =
+      "// Linear filtering, clamped to the edge; no sRGB; the first row lies at v = 0.\n";
   text += fmt::format("{} {}({} table{}) {{\n", type, function_name(lut),
                       solid ? "sampler3D" : "sampler2D", arguments(lut));
   text += fmt::format("  vec{} at = vec{}({});\n", solid ? 3 : 2, solid ? 3 : 2,

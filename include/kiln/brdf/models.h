@@ -81,6 +81,9 @@ const std::vector<ModelFacts>& all_models();
 /// Names of one family, in the order of its list.
 std::vector<std::string> model_names(std::string_view family);
 
+/// Names of the maskings that fit a listed distribution, in the order of their list.
+std::vector<std::string> fitting_maskings(std::string_view distribution);
+
 /// A distribution of these widths; shape 0 is the model's default, and is not read by models
 /// without one.
 template <class Distribution, class F>

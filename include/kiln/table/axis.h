@@ -22,8 +22,8 @@ struct AxisMapping {
   std::string name;                  ///< "sqrt-mu"
   std::vector<std::string> aliases;  ///< other spellings
   Quantity quantity = Quantity::Mu;
-  std::string meaning;               ///< "u = sqrt(n.v)"
-  std::string position_code;         ///< u as an expression that GLSL, HLSL and C++ share
+  std::string meaning;        ///< "u = sqrt(n.v)"
+  std::string position_code;  ///< u as an expression that GLSL, HLSL and C++ share
   double (*value)(double u) = nullptr;
   double (*position)(double value) = nullptr;
 };

@@ -64,9 +64,9 @@ struct TableAxis {
 /// A table and how wrong it is.
 struct Lut {
   TableRecipe recipe;
-  std::vector<TableAxis> axes;              ///< x, y, z
+  std::vector<TableAxis> axes;               ///< x, y, z
   std::vector<std::vector<double>> entries;  ///< [channel][z][y][x]
-  double entry_error = 0;  ///< greatest |entry - higher order|, before encoding
+  double entry_error = 0;                    ///< greatest |entry - higher order|, before encoding
   int entries_checked = 0;
   double fit_error = 0;     ///< mean share of light that a fit sends elsewhere; 0 without fits
   double lookup_error = 0;  ///< greatest of a linear lookup; mu in [1e-3,1], roughness in [0.01,1]

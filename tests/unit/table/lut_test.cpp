@@ -146,14 +146,18 @@ TEST(Tables, AreTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(Tables, UnknownWordsAreRefusedWithTheNearest) {
-  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { find_table("split-sun"); }), HasSubstr("unknown table 'split-sun' (did you mean 'split-sum'?)"));
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { find_table("split-sun"); }),
+              HasSubstr("unknown table 'split-sun' (did you mean 'split-sum'?)"));
   TableRecipe recipe = recipe_of(find_table("split-sum"));
   recipe.axes = {"mu", "rougness"};
-  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }), HasSubstr("did you mean 'roughness'?"));
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }),
+              HasSubstr("did you mean 'roughness'?"));
   recipe.axes = {"mu", "sqrt-mu"};
-  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }), HasSubstr("found mu twice"));
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }),
+              HasSubstr("found mu twice"));
   recipe.axes = {"mu", "f0"};
-  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }), HasSubstr("runs over mu, roughness"));
+  EXPECT_THAT(test::fault_text(Fault::Usage, [&] { complete(recipe); }),
+              HasSubstr("runs over mu, roughness"));
 }
 
 TEST(Axes, PositionIsTheInverseOfValue) {
