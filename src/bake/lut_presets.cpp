@@ -27,8 +27,8 @@ std::vector<LutPreset> make_list() {
       {"khronos",
        "glTF sample viewers: F0 * R + G, cloth in B",
        "uint8",
-       {{"split-sum", with(centred, "scale,bias,sheen-clamped", "256x256")},
-        {"sheen", with(centred, "zero,zero,sheen-clamped", "256x256")}},
+       {{"split-sum", with(centred, "scale,bias,sheen-clamped", "128x128")},
+        {"sheen", with(centred, "zero,zero,sheen-clamped", "128x128")}},
        {"the Khronos sampler's cloth table applies a uniform-hemisphere estimator to importance "
         "samples, with roughness in place of its square (0.320 at (0.5, 0.5), where the integral "
         "is "

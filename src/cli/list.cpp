@@ -82,6 +82,11 @@ std::string furnace_text(const LobeMeasure& measure) {
   return fmt::format("{} ({:.4f} to {:.4f})", passes ? "passes" : "FAILS", least, greatest);
 }
 
+std::string reciprocal_text(const LobeMeasure& measure) {
+  return fmt::format("{} (asymmetry {:.1g})", yes_or_no(measure.asymmetry < 1e-9),
+                     measure.asymmetry);
+}
+
 // The partner that a model of one family is measured with.
 Lobe measured_lobe(const std::string& family, const std::string& name) {
   const bool cloth = name == "charlie" || name == "estevez-kulla" || name.starts_with("neubelt");
@@ -110,6 +115,7 @@ void measure_model(Item& item) {
   const Lobe lobe = measured_lobe(family, item.name);
   const LobeMeasure measure = measure_lobe(lobe);
   const std::string partner = family == "masking" ? lobe.distribution : lobe.masking;
+  item.facts.emplace_back("reciprocal", reciprocal_text(measure));
   item.facts.emplace_back("weak white furnace, with " + partner, furnace_text(measure));
   item.facts.emplace_back("greatest directional albedo, F = 1",
                           energy_text(measure.greatest_albedo, measure.mu, measure.roughness));
@@ -129,7 +135,8 @@ std::vector<Item> list_lobes(const Globals&) {
 
 void measure_listed_lobe(Item& item) {
   const LobeMeasure measure = measure_lobe({item.facts[0].second, item.facts[1].second, 0});
-  item.facts = {{"weak white furnace", furnace_text(measure)},
+  item.facts = {{"reciprocal", reciprocal_text(measure)},
+                {"weak white furnace", furnace_text(measure)},
                 {"greatest directional albedo, F = 1",
                  energy_text(measure.greatest_albedo, measure.mu, measure.roughness)}};
 }

@@ -45,6 +45,7 @@ AxisTexts axis_texts(const WriteOptions& options, size_t axis, int length) {
 std::vector<AxisTexts> all_axes(const Contents& contents, const WriteOptions& options) {
   std::vector<int> lengths{contents.slice.width, contents.slice.height};
   if (contents.depth > 1) lengths.push_back(contents.depth);
+  if (!options.labels.axes.empty()) lengths.resize(options.labels.axes.size());  // curves have one
   std::vector<AxisTexts> axes;
   for (size_t axis = 0; axis < lengths.size(); ++axis) {
     axes.push_back(axis_texts(options, axis, lengths[axis]));
@@ -72,7 +73,7 @@ std::string encode_csv(const Contents& contents, const StoredPlanes& stored,
   for (int y = 0; y < height * contents.depth; ++y) {
     for (int x = 0; x < contents.slice.width; ++x) {
       text += axes[0].coordinates[static_cast<size_t>(x)];
-      text += axes[1].coordinates[static_cast<size_t>(y % height)];
+      if (axes.size() > 1) text += axes[1].coordinates[static_cast<size_t>(y % height)];
       if (axes.size() > 2) text += axes[2].coordinates[static_cast<size_t>(y / height)];
       for (const Plane* plane : stored.planes) {
         fmt::format_to(std::back_inserter(text), "{:.9g},", plane->at(x, y));

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "kiln/core/error.h"
 #include "texel_pack.h"
 
@@ -27,9 +29,9 @@ void check_labels(const Contents& contents, const StoredPlanes& stored, const La
   }
   if (labels.axes.empty()) return;
   const int lengths[] = {contents.slice.width, contents.slice.height, contents.depth};
-  const size_t wanted = contents.depth > 1 ? 3 : 2;
-  bool fits = labels.axes.size() == wanted;
-  for (size_t axis = 0; fits && axis < wanted; ++axis) {
+  const size_t least = contents.depth > 1 ? 3 : contents.slice.height > 1 ? 2 : 1;
+  bool fits = labels.axes.size() >= least && labels.axes.size() <= std::max<size_t>(least, 2);
+  for (size_t axis = 0; fits && axis < labels.axes.size(); ++axis) {
     fits = labels.axes[axis].coordinates.size() == static_cast<size_t>(lengths[axis]);
   }
   if (!fits) refuse("the labels' axes are not those of the image");
@@ -48,6 +50,7 @@ std::string encode_table(std::string_view format, const std::filesystem::path& p
     const Layers coded = rgbd_image(size, planes, facts);
     WriteOptions as_bytes = options;
     as_bytes.type = PixelType::Uint8;
+    as_bytes.labels = {};
     return encode_table(format, path, planes_of(coded), as_bytes, facts);
   }
   const Contents contents{.slice = {size.width, size.height / options.depth},

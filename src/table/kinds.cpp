@@ -168,6 +168,8 @@ void complete(TableRecipe& recipe) {
     recipe.channels = facts.channels;
     if (recipe.table == "directional-albedo" && !fresnel.empty()) recipe.channels = {"reflectance"};
   }
+  for (std::string& axis : recipe.axes) axis = find_axis_mapping(axis).name;
+  for (std::string& channel : recipe.channels) channel = find_channel(channel).name;
   const bool reads_fresnel =
       std::count(recipe.channels.begin(), recipe.channels.end(), "reflectance") > 0;
   if (!reads_fresnel && !fresnel.empty() && fresnel != "schlick") {

@@ -14,14 +14,28 @@
 namespace kiln {
 namespace {
 
-// Rules are tiny and asked for again and again: made once for every order that is used.
-const Rule& unit_rule(int n) {
-  static const std::array<Rule, most_slopes + 1> rules = [] {
-    std::array<Rule, most_slopes + 1> made;
-    for (const int k : {40, 64, 80, 96, 128, 160, 192, 256}) made[k] = gauss_legendre(k);
-    return made;
-  }();
-  return rules[n];
+template <int Points>
+const Rule& made_once() {
+  static const Rule rule = gauss_legendre(Points);
+  return rule;
+}
+
+// Rules are asked for again and again, and made when they first are.
+const Rule& unit_rule(int points) {
+  switch (points) {
+    case 40:
+      return made_once<40>();
+    case 80:
+      return made_once<80>();
+    case 128:
+      return made_once<128>();
+    case 160:
+      return made_once<160>();
+    case 192:
+      return made_once<192>();
+    default:
+      return made_once<most_slopes>();
+  }
 }
 
 double sum_lanes(Wide values) {
@@ -30,6 +44,11 @@ double sum_lanes(Wide values) {
   double sum = 0;
   for (const double value : lane) sum += value;
   return sum;
+}
+
+// The clamp of the visibility acts only where both directions graze.
+bool bends_at(const std::string& masking, double mu) {
+  return masking == "neubelt-clamped" && mu < 0.25;
 }
 
 bool has_kinks(const std::string& masking) {
@@ -52,7 +71,7 @@ double greatest_error(const std::vector<LobeTerms>& found, const std::vector<Lob
 }  // namespace
 
 QuadratureOrder order_of(const Lobe& lobe, Quality quality, double mu) {
-  if (has_kinks(lobe.masking)) {
+  if (has_kinks(lobe.masking) || bends_at(lobe.masking, mu)) {
     constexpr QuadratureOrder orders[] = {{96, 128}, {128, 160}, {192, 192}, {256, 256}};
     return orders[static_cast<int>(quality)];
   }
@@ -192,7 +211,7 @@ std::vector<LobeTerms> LobeIntegrals::grid(std::span<const double> mus,
 }
 
 LobeTerms LobeIntegrals::average(double alpha) const {
-  const Rule& rule = unit_rule(64);
+  const Rule& rule = made_once<64>();
   const double width = std::max(alpha, min_alpha);
   const double reach = std::asinh(1 / width);
   LobeTerms average;

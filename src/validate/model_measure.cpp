@@ -63,11 +63,39 @@ std::optional<ValueRange> weak_furnace_of(const Lobe& lobe) {
   return found;
 }
 
+Vec3<double> direction(double mu, double azimuth) {
+  const double sine = std::sqrt((1 - mu) * (1 + mu));
+  return {sine * std::cos(azimuth), sine * std::sin(azimuth), mu};
+}
+
+// Greatest |f(i, o) - f(o, i)| / f(i, o) of D and G2 over pairs of directions.
+double asymmetry_of(const Lobe& lobe) {
+  double greatest = 0;
+  with_lobe(lobe.distribution, lobe.masking,
+            [&]<template <class> class Distribution, template <class> class Masking>() {
+              const auto one =
+                  make_distribution<Distribution<double>, double>(0.3, 0.3, lobe.shape);
+              const auto value = [&](const Vec3<double>& wo, const Vec3<double>& wi) {
+                const Vec3<double> wm = normalize(wo + wi);
+                return one.D(wm) * Masking<double>::visibility(one, wo, wi, wm);
+              };
+              for (const double mu_o : measured_mus) {
+                for (const double mu_i : measured_mus) {
+                  const Vec3<double> wo = direction(mu_o, 0), wi = direction(mu_i, 2);
+                  const double there = value(wo, wi), back = value(wi, wo);
+                  greatest = std::max(greatest, std::abs(there - back) / std::max(there, 1e-30));
+                }
+              }
+            });
+  return greatest;
+}
+
 }  // namespace
 
 LobeMeasure measure_lobe(const Lobe& lobe) {
   LobeMeasure measure;
   measure.weak_furnace = weak_furnace_of(lobe);
+  measure.asymmetry = asymmetry_of(lobe);
   std::vector<double> alphas;
   alphas.reserve(measured_roughness.size());
   for (const double roughness : measured_roughness) alphas.push_back(roughness * roughness);

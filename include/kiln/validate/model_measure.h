@@ -19,6 +19,7 @@ struct LobeMeasure {
   /// The weak white furnace, INT G1(o, m) max(0, o.m) D(m) dm / mu_o: 1 for maskings that belong to
   /// a surface. Absent where there is no masking of one direction alone.
   std::optional<ValueRange> weak_furnace;
+  double asymmetry = 0;          ///< greatest |f(i, o) - f(o, i)| / f(i, o); rounding if reciprocal
   double greatest_albedo = 0;    ///< with F = 1; above 1 the lobe gains energy
   double mu = 1, roughness = 1;  ///< where
 };
