@@ -4,7 +4,6 @@
 #include <pthread.h>
 
 #include <csignal>
-#include <ctime>
 
 namespace kiln {
 namespace {
@@ -26,9 +25,9 @@ void end_by(int signal) {
 
 void listen(const std::stop_token& stop, std::atomic<int>& first) {
   const sigset_t set = stop_signals();
-  const timespec moment{0, 100'000'000};  // how often the end of the run is looked for
-  while (!stop.stop_requested()) {
-    const int signal = sigtimedwait(&set, nullptr, &moment);
+  while (true) {
+    const int signal = sigwaitinfo(&set, nullptr);
+    if (stop.stop_requested()) return;
     if (signal <= 0) continue;
     if (first != 0) end_by(signal);
     first = signal;
@@ -45,6 +44,7 @@ Interruption::Interruption() {
 
 Interruption::~Interruption() {
   listener_.request_stop();
+  pthread_kill(listener_.native_handle(), SIGTERM);  // wakes the listener, which then ends
   listener_.join();
   const sigset_t set = stop_signals();
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
