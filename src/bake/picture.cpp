@@ -88,7 +88,10 @@ Picture::Spot Picture::spot_of_ball(double px, double py) const {
 Picture::Spot Picture::spot_on_ball(const Vec3<double>& normal) const {
   const double longitude = std::atan2(normal.x, normal.z);
   const double latitude = std::asin(std::clamp(normal.y, -1.0, 1.0));
-  const Vec3<double> along{std::cos(longitude), 0, -std::sin(longitude)};
+  const double off_axis = std::hypot(normal.x, normal.z);
+  const Vec3<double> along = off_axis > 0
+                                 ? Vec3<double>{normal.z / off_axis, 0, -normal.x / off_axis}
+                                 : Vec3<double>{1, 0, 0};
   // Two repeats around 2 pi, so that the map's aspect on the ball is 1 : 1 at the equator.
   const double u = longitude / pi + 0.5, v = 0.5 - latitude / pi;
   const Size map = levels_.front().size;

@@ -70,7 +70,7 @@ struct Rendered {
   Layers image;
   int samples = 0;
   double mean_error = 0;
-  double lost = 0;  ///< of glass
+  double lost = 0, trapped = 0;  ///< of glass
 };
 
 bool is_glass(const ShadingInputs& inputs) { return inputs.surface.bsdf == "glass"; }
@@ -82,6 +82,7 @@ Rendered render_once(const Picture& picture, const ShadingInputs& inputs, int sa
     GlassPicture glass = estimate_glass(picture, inputs, samples, seed);
     rendered.image = std::move(glass.image);
     rendered.lost = glass.lost;
+    rendered.trapped = glass.trapped;
   } else {
     rendered.image = estimate_picture(picture, inputs, samples, seed);
   }
@@ -147,7 +148,10 @@ void add_model_notes(const Settings& settings, const ShadingInputs& inputs, Bake
 void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& reference,
                  Baked& baked) {
   baked.figures = {{"samples", reference.samples}, {"mean standard error", reference.mean_error}};
-  if (is_glass(inputs)) baked.figures.emplace_back("energy lost", reference.lost);
+  if (is_glass(inputs)) {
+    baked.figures.emplace_back("energy lost", reference.lost);
+    baked.figures.emplace_back("light ended inside", reference.trapped);
+  }
   if (settings.target_error > 0 && reference.mean_error > settings.target_error) {
     baked.notes.push_back(fmt::format("mean standard error {:.3g} after {} samples, asked for {}",
                                       reference.mean_error, reference.samples,

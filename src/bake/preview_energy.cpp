@@ -8,51 +8,59 @@ namespace {
 using F = WideFloat;
 
 // A lobe that reflects more than it receives has nothing to compensate: E counts as 1 there.
-SplitSumTerms<F> bounded(const DirectionTerms& terms) {
-  return {min(terms.split.total(), F(1.0f)), F(0.0f)};
+SplitSumTerms<F> bounded(const SplitSumTerms<F>& split) {
+  return {min(split.total(), F(1.0f)), F(0.0f)};
 }
 
-ChannelEnergy<F> energy_of(const ChannelTerms& channel, const DirectionTerms& terms) {
-  return {channel.f0, channel.average, reflectance_of(channel, terms)};
+SplitSumTerms<F> bounded_average(const StagedPoint& point) {
+  return {point.bounded_average, F(0.0f)};
 }
 
-F component(const WideVec& v, int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
+using Channels = std::array<ChannelEnergy<F>, 3>;
 
-// What the lobe reflects in total toward the direction of these terms, per channel.
-template <class Energy>
-WideVec total_toward(const StagedPoint& point, const DirectionTerms& terms,
-                     const SplitSumTerms<F>& average) {
-  const SplitSumTerms<F> e = bounded(terms);
-  const Albedo<F> albedo{e, e, average};
-  const auto total = [&](int c) {
-    return Energy::total(energy_of(point.channels[c], terms), albedo);
+Channels channels_of(const StagedPoint& point, const WideVec& single) {
+  const auto channel = [&](int c, F reflectance) -> ChannelEnergy<F> {
+    return {point.channels[c].f0, point.channels[c].average, reflectance};
   };
-  return {total(0), total(1), total(2)};
+  return {channel(0, single.x), channel(1, single.y), channel(2, single.z)};
+}
+
+// What the lobe reflects in total toward a direction of albedo e, per channel.
+template <class Energy>
+WideVec total_toward(const Channels& channels, const SplitSumTerms<F>& e,
+                     const SplitSumTerms<F>& average) {
+  const Albedo<F> albedo{e, e, average};
+  return {Energy::total(channels[0], albedo), Energy::total(channels[1], albedo),
+          Energy::total(channels[2], albedo)};
 }
 
 template <class Energy>
 void set_energy(StagedPoint& point) {
-  const SplitSumTerms<F> average = bounded(point.average);
-  point.total_o = total_toward<Energy>(point, point.terms_o, average);
-  point.total_average = total_toward<Energy>(point, point.average, average);
+  const SplitSumTerms<F> average = bounded_average(point);
+  point.total_o = total_toward<Energy>(channels_of(point, point.single_o),
+                                       bounded(point.terms_o.split), average);
+  point.total_average =
+      total_toward<Energy>(channels_of(point, point.single_average), average, average);
 }
 
 template <class Energy>
-void add_energy(const StagedPoint& point, const AlbedoTable& table, DirectionBlock& block) {
-  const SplitSumTerms<F> e_o = bounded(point.terms_o), average = bounded(point.average);
-  const std::array<ChannelEnergy<F>, 3> channels = {energy_of(point.channels[0], point.terms_o),
-                                                    energy_of(point.channels[1], point.terms_o),
-                                                    energy_of(point.channels[2], point.terms_o)};
+F with_energy(F single, const ChannelEnergy<F>& channel, const Albedo<F>& albedo) {
+  return fma(single, Energy::scale(channel, albedo), Energy::added(channel, albedo));
+}
+
+template <class Energy>
+void add_energy(const StagedPoint& point, DirectionBlock& block) {
+  const SplitSumTerms<F> average = bounded_average(point);
+  const Channels channels = channels_of(point, point.single_o);
+  Albedo<F> albedo{bounded(point.terms_o.split), {}, average};
   for (int i = 0; i < block.count; ++i) {
-    const F mu = block.wi[i].z;
-    const DirectionTerms terms{table.terms(point.row, mu), table.edge(point.row, mu)};
-    const Albedo<F> albedo{e_o, bounded(terms), average};
-    const auto specular = [&](int c) {
-      const F single = component(block.specular[i], c) * block.lobe[i];
-      return fma(single, Energy::scale(channels[c], albedo), Energy::added(channels[c], albedo));
-    };
-    block.specular[i] = {specular(0), specular(1), specular(2)};
-    block.reflectance[i] = max_component(total_toward<Energy>(point, terms, average));
+    albedo.i = bounded(block.terms[i].split);
+    const WideVec single = block.specular[i] * block.lobe[i];
+    block.specular[i] = {with_energy<Energy>(single.x, channels[0], albedo),
+                         with_energy<Energy>(single.y, channels[1], albedo),
+                         with_energy<Energy>(single.z, channels[2], albedo)};
+    const Channels back = channels_of(point, block.single[i]);
+    block.reflectance[i] = max_component(total_toward<Energy>(back, albedo.i, average));
   }
 }
 

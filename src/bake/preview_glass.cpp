@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preview_glass.h"
 
+#include "glass_albedos.h"
 #include "kiln/brdf/rough_dielectric.h"
 #include "kiln/brdf/roughness.h"
 #include "kiln/integrate/sobol.h"
@@ -27,23 +28,29 @@ struct Paths {
 struct Boundary {
   Frame<F> frame;  // of the true surface, z outward
   Color normal;    // of the maps, tangent space
-  F alpha;
+  F roughness;
 };
 
 struct Harvest {
   Color radiance{F(0.0f), F(0.0f), F(0.0f)};
   F carried = F(0.0f);  // throughput of the paths that left
+  F trapped = F(0.0f);  // of which were ended inside
+
+  void add(const Color& light, F throughput) {
+    radiance += light * throughput;
+    carried += throughput;
+  }
 };
 
 Boundary boundary_of(const TexelBlock<F>& block, const Frame<F>& frame) {
   const TexelValues<F> texel = values_of<F>(block);
-  return {frame, texel.normal, to_alpha(texel.roughness)};
+  return {frame, texel.normal, clamp(texel.roughness, F(0.0f), F(1.0f))};
 }
 
 // The smooth, parallel back of a slab whose front this is.
 Boundary back_of(const Boundary& front) {
   const Frame<F>& f = front.frame;
-  return {{f.x, -f.y, -f.z}, {F(0.0f), F(0.0f), F(1.0f)}, F(static_cast<float>(min_alpha))};
+  return {{f.x, -f.y, -f.z}, {F(0.0f), F(0.0f), F(1.0f)}, F(0.0f)};
 }
 
 // The normal of the maps, bent so that the path comes from the side of it that it comes from.
@@ -65,29 +72,46 @@ Color draw(const std::array<std::uint32_t, 4>& point, const std::array<WideUint,
   return {number(0), number(1), number(2)};
 }
 
-// Reflects or refracts; paths that leave are harvested.
-void meet(const Boundary& at, F ior, const Color& u, const Environment& environment, Paths& paths,
-          Harvest& harvest) {
-  const Color back = -paths.direction;
+// What paths meet and end in.
+struct GlassBody {
+  const Picture& picture;
+  const Environment& environment;
+  F ior;
+  const GlassAlbedos* albedos;  // null: what the single bounce loses stays lost
+};
+
+// Reflects or refracts, as one draw of the BSDF says.
+void meet(const GlassBody& body, const Boundary& at, const Color& u, Paths& paths) {
   const F side = select(paths.inside, F(-1.0f), F(1.0f));
-  const Frame<F> frame = shading_frame(at, back, side);
-  const RoughDielectric<F> glass{at.alpha, at.alpha, ior};
-  const DielectricSample<F> drawn = glass.sample(frame.to_local(back), u);
-  paths.throughput = paths.throughput * drawn.weight;
+  const Frame<F> frame = shading_frame(at, -paths.direction, side);
+  const Color wo = frame.to_local(-paths.direction);
+  const F alpha = to_alpha(at.roughness);
+  const DielectricSample<F> drawn = RoughDielectric<F>{alpha, alpha, body.ior}.sample(wo, u);
+  F weight = drawn.weight;
+  if (body.albedos) weight = weight / body.albedos->total(abs(wo.z), at.roughness, paths.inside);
+  paths.throughput = select(paths.alive, paths.throughput * weight, F(0.0f));
   paths.alive = paths.alive && (drawn.weight > F(0.0f));
-  Color next = frame.to_world(drawn.wi);
+  const Color next = frame.to_world(drawn.wi);
   const F wanted = select(drawn.transmitted, -side, side);
   const F rise = dot(next, at.frame.z);
-  next = select(rise * wanted < F(0.0f), next - at.frame.z * (F(2.0f) * rise), next);
-  paths.direction = select(paths.alive, next, paths.direction);
+  const Color kept = select(rise * wanted < F(0.0f), next - at.frame.z * (F(2.0f) * rise), next);
+  paths.direction = select(paths.alive, kept, paths.direction);
   paths.inside = wanted < F(0.0f);
-  const Mask leaves = paths.alive && (wanted > F(0.0f));
+}
+
+void harvest_leaving(const Environment& environment, Paths& paths, Harvest& harvest) {
+  const Mask leaves = paths.alive && !paths.inside;
   if (any(leaves)) {
-    const F carried = select(leaves, paths.throughput, F(0.0f));
-    harvest.radiance += environment.radiance(paths.direction) * carried;
-    harvest.carried += carried;
+    harvest.add(environment.radiance(paths.direction), select(leaves, paths.throughput, F(0.0f)));
   }
-  paths.alive = paths.alive && (wanted < F(0.0f));
+  paths.alive = paths.alive && paths.inside;
+}
+
+// Straight on; the radiance inside is that outside times the square of the index.
+void harvest_trapped(const GlassBody& body, const Paths& paths, Harvest& harvest) {
+  const F throughput = select(paths.alive, paths.throughput * body.ior * body.ior, F(0.0f));
+  harvest.add(body.environment.radiance(paths.direction), throughput);
+  harvest.trapped += throughput;
 }
 
 // The other end of a chord through the unit ball.
@@ -95,34 +119,32 @@ Color across(const Color& position, const Color& direction) {
   return normalize(position - direction * (F(2.0f) * dot(position, direction)));
 }
 
-struct GlassBody {
-  const Picture& picture;
-  const Environment& environment;
-  F ior;
+// The boundary at the other end of a chord of the ball; of the slab, its other face.
+Boundary next_boundary(const GlassBody& body, const Boundary& first, int bounce, Paths& paths) {
+  if (!body.picture.is_ball()) return bounce % 2 == 0 ? back_of(first) : first;
+  paths.position = across(paths.position, paths.direction);
+  TexelBlock<F> block;
+  Frame<F> frame;
+  body.picture.fill_on_ball(paths.position, block, frame);
+  return boundary_of(block, frame);
+}
 
-  void trace(const Boundary& first, Paths paths, const std::array<std::uint32_t, 4>& point,
-             const std::array<WideUint, 4>& seeds, int index, Harvest& harvest) const {
-    Boundary at = first;
-    const Boundary back = back_of(first);
-    for (int bounce = 0; bounce < most_bounces; ++bounce) {
-      meet(at, ior, draw(point, seeds, index, bounce), environment, paths, harvest);
-      if (!any(paths.alive)) return;
-      if (picture.is_ball()) {
-        paths.position = across(paths.position, paths.direction);
-        TexelBlock<F> block;
-        Frame<F> frame;
-        picture.fill_on_ball(paths.position, block, frame);
-        at = boundary_of(block, frame);
-      } else {
-        at = bounce % 2 == 0 ? back : first;
-      }
-    }
+void trace(const GlassBody& body, const Boundary& first, Paths paths,
+           const std::array<std::uint32_t, 4>& point, const std::array<WideUint, 4>& seeds,
+           int index, Harvest& harvest) {
+  Boundary at = first;
+  for (int bounce = 0; bounce < most_bounces; ++bounce) {
+    meet(body, at, draw(point, seeds, index, bounce), paths);
+    harvest_leaving(body.environment, paths, harvest);
+    if (!any(paths.alive)) return;
+    at = next_boundary(body, first, bounce, paths);
   }
-};
+  harvest_trapped(body, paths, harvest);
+}
 
 struct GlassEstimate {
   Estimate radiance;
-  F carried;
+  F carried, trapped;
 };
 
 GlassEstimate estimate_texels(const GlassBody& body, const SobolPoints& points, int x, int y,
@@ -140,31 +162,32 @@ GlassEstimate estimate_texels(const GlassBody& body, const SobolPoints& points, 
     for (int r = 0; r < repetitions; ++r) {
       const auto seeds = repetition_seeds<WideUint>(texels, static_cast<std::uint32_t>(r));
       for (int i = position * share; i < (position + 1) * share; ++i) {
-        body.trace(first, start, points[static_cast<size_t>(i)], seeds, i, harvests[r]);
+        trace(body, first, start, points[static_cast<size_t>(i)], seeds, i, harvests[r]);
       }
     }
   }
   const F scale(1.0f / static_cast<float>(points.size()));
   std::array<Color, repetitions> means;
-  F carried(0.0f);
+  F carried(0.0f), trapped(0.0f);
   for (int r = 0; r < repetitions; ++r) {
     means[r] = harvests[r].radiance * scale;
     carried += harvests[r].carried * scale * F(1.0f / repetitions);
+    trapped += harvests[r].trapped * scale * F(1.0f / repetitions);
   }
-  return {summarise(means), carried};
+  return {summarise(means), carried, trapped};
 }
 
-// Mean of what is lost over the pixels that show the body.
-double mean_lost(const Plane& carried, const Plane& alpha) {
-  double lost = 0, pixels = 0;
-  for (int y = 0; y < carried.height(); ++y) {
-    for (int x = 0; x < carried.width(); ++x) {
+// Mean over the pixels that show the body.
+double mean_shown(const Plane& values, const Plane& alpha) {
+  double sum = 0, pixels = 0;
+  for (int y = 0; y < values.height(); ++y) {
+    for (int x = 0; x < values.width(); ++x) {
       if (alpha.at(x, y) <= 0) continue;
-      lost += 1 - carried.at(x, y);
+      sum += values.at(x, y);
       ++pixels;
     }
   }
-  return pixels > 0 ? lost / pixels : 0;
+  return pixels > 0 ? sum / pixels : 0;
 }
 
 }  // namespace
@@ -175,10 +198,12 @@ GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,
       make_layers(picture.size(), {"R", "G", "B", "A", "stderr.R", "stderr.G", "stderr.B"})};
   Layers& image = made.image;
   fill_coverage(picture, image);
-  Plane carried(picture.size(), 0);
+  Plane carried(picture.size(), 0), trapped(picture.size(), 0);
+  const GlassAlbedos albedos(inputs.surface.ior);
   const SobolPoints points = sobol_points_reversed(samples / repetitions);
   const GlassBody body{picture, inputs.light->environment,
-                       F(static_cast<float>(inputs.surface.ior))};
+                       F(static_cast<float>(inputs.surface.ior)),
+                       inputs.surface.energy == "none" ? nullptr : &albedos};
   for_rows(picture.size().height, [&](int y) {
     for (int x = 0; x < picture.size().width; x += lanes) {
       if (!covers_any(image, x, y)) continue;
@@ -186,10 +211,12 @@ GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,
       store_color(image, 0, x, y, e.radiance.mean);
       store_color(image, 4, x, y, e.radiance.error);
       store_lanes(carried.row(y) + x, e.carried);
+      store_lanes(trapped.row(y) + x, e.trapped);
     }
   });
   clear_background(image);
-  made.lost = mean_lost(carried, image.layers[3].plane);
+  made.lost = 1 - mean_shown(carried, image.layers[3].plane);
+  made.trapped = mean_shown(trapped, image.layers[3].plane);
   return made;
 }
 

@@ -11,16 +11,22 @@ namespace kiln {
 // environment when they leave.
 //
 // The ball is solid. The plane is the front of a thin slab: its back is smooth and parallel, and a
-// path meets it where it met the front. A direction that a bent normal sends through the wrong
-// side of the true surface is mirrored at that surface, so no light is lost to normal maps.
-// Light is lost where the single-bounce microfacet model loses it, and with paths that are still
-// inside after most_bounces; what is lost is measured and reported.
+// path meets it where it met the front.
+//
+// Light is neither gained nor lost on the way, but for noise and the tables of albedos:
+//  * what the single-bounce microfacet model loses is made up for by 1 over its albedo toward the
+//    path (not with energy: none, where it stays lost);
+//  * a direction that a bent normal sends through the wrong side of the true surface is mirrored at
+//    that surface;
+//  * a path that is still inside after most_bounces leaves straight on. Normal maps trap such
+//    paths, for nothing turns them to where they may leave; how many they are is reported.
 
-inline constexpr int most_bounces = 64;
+inline constexpr int most_bounces = 32;
 
 struct GlassPicture {
   Layers image;     ///< planes R G B A stderr.R stderr.G stderr.B
-  double lost = 0;  ///< mean share of the light that no path carries out [0..1]
+  double lost = 0;  ///< mean share of the light that no path carries out [0..1]; noise has a sign
+  double trapped = 0;  ///< mean share of the light on paths that were ended inside [0..1]
 };
 
 /// @param samples  paths for each pixel

@@ -12,13 +12,10 @@ DirectionTerms average_terms(const AlbedoTable& table, const AlbedoRow<F>& row) 
 
 // As in the fused loop: the lobe's share of what is reflected, never without the other.
 void set_specular_share(StagedPoint& point) {
-  const WideVec single{reflectance_of(point.channels[0], point.terms_o),
-                       reflectance_of(point.channels[1], point.terms_o),
-                       reflectance_of(point.channels[2], point.terms_o)};
   const F left = max(F(1.0f) - max_component(point.total_o), F(0.0f));
-  const F more = max(luminance(point.total_o - single), F(0.0f));
+  const F more = max(luminance(point.total_o - point.single_o), F(0.0f));
   const F spread = more + luminance(point.diffuse_color) * left;
-  const F lobe = luminance(single);
+  const F lobe = luminance(point.single_o);
   point.specular_share = clamp(lobe / max(lobe + spread, F(1e-6f)), F(0.1f), F(0.9f));
 }
 
@@ -59,11 +56,19 @@ void fill_block(const StagedPoint& point, const SurfaceStages& stages,
   }
 }
 
+void look_up(const StagedPoint& point, const AlbedoTable& table, DirectionBlock& block) {
+  for (int i = 0; i < block.count; ++i) {
+    const F mu = block.wi[i].z;
+    block.terms[i] = {table.terms(point.row, mu), table.edge(point.row, mu)};
+  }
+}
+
 void run_stages(const StagedPoint& point, const SurfaceStages& stages, const AlbedoTable& table,
                 DirectionBlock& block) {
   stages.add_lobe(point, block);
+  look_up(point, table, block);
   stages.add_fresnel(point, block);
-  stages.add_energy(point, table, block);
+  stages.add_energy(point, block);
   stages.add_diffuse(point, block);
   stages.couple(point, block);
 }
@@ -94,6 +99,7 @@ StagedPoint make_staged_point(const TexelValues<F>& texel, const Placement<F>& p
   point.row = table.row(point.roughness);
   point.terms_o = {table.terms(point.row, point.wo.z), table.edge(point.row, point.wo.z)};
   point.average = average_terms(table, point.row);
+  point.bounded_average = table.average_bounded(point.row);
   stages.set_fresnel(stages.numbers, texel.f0, point);
   stages.set_energy(point);
   set_specular_share(point);

@@ -13,14 +13,8 @@ namespace kiln {
 // then energy and coupling. Each stage is a function chosen once per picture, so code grows as the
 // sum of the lists, not as their product. The common models have a fused loop instead: estimate.h.
 
-/// One colour channel as far as energy is concerned: its Fresnel reflectance F as
-/// F0 + (F90 - F0)(1 - c)^5 - dip c (1 - c)^6, so that the lobe reflects
-/// F0 scale + F90 bias - dip edge (see LobeTerms).
-///
-/// That is exact for Schlick and for the models with a dip, where these are not clamped. Of other
-/// models it agrees at normal incidence, at grazing incidence and on the average. Over mu >= 0.05
-/// and every roughness the reflectance errs by at most 0.004 for dielectrics of F0 0.02 to 0.1, and
-/// 0.011 for metals of F0 0.5 to 0.95. It steers energy and coupling; the lobe itself is exact.
+/// One colour channel as far as averages over directions are concerned: its Fresnel reflectance as
+/// F0 + (F90 - F0)(1 - c)^5 - dip c (1 - c)^6, with the average that it has.
 struct ChannelTerms {
   WideFloat f0, f90, dip, average;
 };
@@ -41,9 +35,11 @@ struct StagedPoint {
   std::array<ChannelTerms, 3> channels;
   AlbedoRow<WideFloat> row;
   DirectionTerms terms_o, average;
-  Vec3<WideFloat> total_o, total_average;  ///< reflectance of the specular lobe, with its energy
-  WideFloat specular_share;                ///< probability to sample the specular lobe
-  float shape = 0;                         ///< of the distribution
+  WideFloat bounded_average;                 ///< of min(E, 1)
+  Vec3<WideFloat> single_o, single_average;  ///< reflectance of the lobe with its Fresnel
+  Vec3<WideFloat> total_o, total_average;    ///< and with its energy
+  WideFloat specular_share;                  ///< probability to sample the specular lobe
+  float shape = 0;                           ///< of the distribution
 };
 
 /// Directions at one texel and what the stages make of them.
@@ -58,6 +54,8 @@ struct DirectionBlock {
   Of<WideFloat> own_density;     ///< of the texel's own [1/sr]
   Of<WideFloat> cosine;          ///< wo.wm
   Of<WideFloat> lobe;            ///< D V, the lobe with F = 1 [1/sr]
+  Of<DirectionTerms> terms;      ///< of wi
+  Of<Vec3<WideFloat>> single;    ///< reflectance of the lobe with its Fresnel toward wi
   Of<Vec3<WideFloat>> specular;  ///< F, then the lobe with its energy [1/sr]
   Of<Vec3<WideFloat>> diffuse;   ///< [1/sr]
   Of<WideFloat> reflectance;     ///< of the specular lobe toward wi, greatest channel
@@ -71,10 +69,11 @@ struct SurfaceStages {
   WideVec (*sample_normal)(const StagedPoint& point, const Vec2<WideFloat>& u) = nullptr;
   /// own_density, cosine and lobe of a block.
   void (*add_lobe)(const StagedPoint& point, DirectionBlock& block) = nullptr;
-  /// fresnel and channels of a point, from F0 and the numbers of the choice.
+  /// fresnel, channels, single_o and single_average of a point, from F0 and the numbers of the
+  /// choice.
   void (*set_fresnel)(const FresnelChannel<float>& numbers, const WideVec& f0,
                       StagedPoint& point) = nullptr;
-  /// specular of a block: F.
+  /// specular of a block: F; and single.
   void (*add_fresnel)(const StagedPoint& point, DirectionBlock& block) = nullptr;
   /// diffuse of a block.
   void (*add_diffuse)(const StagedPoint& point, DirectionBlock& block) = nullptr;
@@ -83,8 +82,7 @@ struct SurfaceStages {
   /// total_o and total_average of a point.
   void (*set_energy)(StagedPoint& point) = nullptr;
   /// specular of a block from F and lobe, and reflectance.
-  void (*add_energy)(const StagedPoint& point, const AlbedoTable& table,
-                     DirectionBlock& block) = nullptr;
+  void (*add_energy)(const StagedPoint& point, DirectionBlock& block) = nullptr;
   /// Weighs diffuse of a block by what the specular lobe leaves.
   void (*couple)(const StagedPoint& point, DirectionBlock& block) = nullptr;
   FresnelChannel<float> numbers = {};
@@ -99,11 +97,5 @@ void choose_lobe(const SurfaceChoice& surface, SurfaceStages& stages);
 
 /// set_energy, add_energy and couple alone.
 void choose_energy(const SurfaceChoice& surface, SurfaceStages& stages);
-
-/// Reflectance of the single-bounce lobe in one channel.
-inline WideFloat reflectance_of(const ChannelTerms& channel, const DirectionTerms& terms) {
-  const WideFloat schlick = fma(channel.f0, terms.split.scale, channel.f90 * terms.split.bias);
-  return max(fma(-channel.dip, terms.edge, schlick), WideFloat(0.0f));
-}
 
 }  // namespace kiln

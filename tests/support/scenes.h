@@ -53,8 +53,9 @@ inline Layers constant_latlong(double radiance) {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// Bakes a preview of `material` in `latlong` with the given settings.
+/// @param shared  a table of albedos to use instead of the lobe's own
 inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
-                          const SurfaceChoice& surface = {}) {
+                          const SurfaceChoice& surface = {}, const AlbedoTable* shared = nullptr) {
   const auto recipe = make_recipe("preview");
   for (const auto& [name, value] : settings) recipe->set(name, value);
   LightSettings light_settings;
@@ -63,11 +64,11 @@ inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const S
   const LightMade made = make_light(latlong, light_settings);
   static std::map<std::string, std::shared_ptr<const AlbedoTable>> albedos;
   auto& albedo = albedos[surface.distribution + surface.masking];
-  if (!albedo) albedo = make_albedo_table(surface);
+  if (!albedo && !shared) albedo = make_albedo_table(surface);
   Ingredients ingredients;
   ingredients.material = &material;
   ingredients.light = made.light.get();
-  ingredients.albedo = albedo.get();
+  ingredients.albedo = shared ? shared : albedo.get();
   ingredients.surface = surface;
   return recipe->bake(ingredients);
 }

@@ -80,6 +80,14 @@ class AlbedoTable {
     return lerp(gather(e, at), gather(e + 1, at), row.blend);
   }
 
+  /// min(E, 1) averaged over directions: what a lobe that gains energy is taken to reflect.
+  template <class F>
+  F average_bounded(const AlbedoRow<F>& row) const {
+    const auto at = row.first / (2 * nodes);
+    const float* e = bounded_averages_.data();
+    return lerp(gather(e, at), gather(e + 1, at), row.blend);
+  }
+
   /// Terms averaged over directions.
   template <class F>
   SplitSumTerms<F> average(const AlbedoRow<F>& row) const {
@@ -98,10 +106,11 @@ class AlbedoTable {
     return m * (F(1) + row.bend) / (m + row.bend) * F(nodes - 1);
   }
 
-  std::vector<float> entries_;        // [roughness][mu]{scale, bias}
-  std::vector<float> averages_;       // [roughness]{scale, bias}
-  std::vector<float> edges_;          // [roughness][mu]
-  std::vector<float> edge_averages_;  // [roughness]
+  std::vector<float> entries_;           // [roughness][mu]{scale, bias}
+  std::vector<float> averages_;          // [roughness]{scale, bias}
+  std::vector<float> edges_;             // [roughness][mu]
+  std::vector<float> edge_averages_;     // [roughness]
+  std::vector<float> bounded_averages_;  // [roughness]
   double greatest_ = 0;
 };
 
