@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kiln/brdf/burley.h"
 #include "kiln/brdf/models.h"
 #include "kiln/math/vec.h"
 #include "kiln/table/ltc.h"
@@ -12,14 +13,8 @@
 namespace kiln::validate {
 namespace {
 
-// Albedo of Burley's diffuse over its colour, with a = (1 - mu)^5, d = r - 1/2, r = sqrt(alpha).
-// Derived from Burley 2012: f = rho / pi (1 + (F90-1)(1-mu_i)^5)(1 + (F90-1)(1-mu_o)^5),
-// F90 = 1/2 + 2 r c^2, and c^2 is linear in cos(phi).
 double burley_albedo(double mu, double alpha) {
-  const double r = std::sqrt(alpha), d = r - 0.5, a = std::pow(1 - mu, 5);
-  const double squared = d * d / 42 + 2 * d * r * mu / 168 + r * r * mu * mu / 504 +
-                         r * r * (1 - mu * mu) * (1.0 / 42 - 1.0 / 504) / 2;
-  return 1 + 2 * (d / 42 + r * mu / 168 + a * (d / 2 + r * mu / 3) + a * squared);
+  return Burley<double>{{1, 1, 1}, std::sqrt(alpha)}.albedo(mu).x;
 }
 
 bool is_common(const Lobe& lobe) {
@@ -86,6 +81,8 @@ std::string_view words(Meaning meaning) {
       return "albedo of Burley's diffuse";
     case Meaning::BurleyLessHalf:
       return "albedo of Burley's diffuse - 0.5";
+    case Meaning::UnityDisney:
+      return "albedo of Burley's diffuse / 1.03571 - 0.5";
     case Meaning::FabricLambert:
       return "1 - alpha / 2, Lambert's fabric";
     case Meaning::SphereFormFactor:
@@ -107,8 +104,8 @@ std::span<const Meaning> meanings_of_sheen() {
 }
 
 std::span<const Meaning> meanings_without_lobe() {
-  static constexpr std::array list{Meaning::Burley, Meaning::BurleyLessHalf, Meaning::FabricLambert,
-                                   Meaning::SphereFormFactor};
+  static constexpr std::array list{Meaning::Burley, Meaning::BurleyLessHalf, Meaning::UnityDisney,
+                                   Meaning::FabricLambert, Meaning::SphereFormFactor};
   return list;
 }
 
@@ -134,6 +131,9 @@ double value_of(Meaning meaning, const LobeTerms& terms, double mu, double alpha
       return burley_albedo(mu, alpha);
     case Meaning::BurleyLessHalf:
       return burley_albedo(mu, alpha) - 0.5;
+    // Divided by its greatest value seen from straight above, and stored less 1/2.
+    case Meaning::UnityDisney:
+      return burley_albedo(mu, alpha) / 1.03571 - 0.5;
     case Meaning::FabricLambert:
       return 1 - alpha / 2;
     // It lies beside the albedos of transformed cosines, where the axes are sqrt(alpha) for the

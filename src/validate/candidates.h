@@ -33,6 +33,7 @@ enum class Meaning {
   BiasOverTwoPi,
   Burley,
   BurleyLessHalf,
+  UnityDisney,
   FabricLambert,
   SphereFormFactor,
 };

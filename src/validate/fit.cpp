@@ -11,6 +11,16 @@ constexpr double greatest_share = 0.1;
 constexpr double highest = 1.25;
 constexpr double as_good_as_zero = 1e-8;  // there a table may hold what stands for a limit
 
+// Fractions of a largest integer stop at 1, but for those over a divisor.
+double ceiling_of(const Sheet& sheet) {
+  using Stored = NumberArray::Stored;
+  const Stored stored = sheet.array->stored;
+  const bool fractions =
+      stored == Stored::Uint8 || stored == Stored::Uint16 || stored == Stored::Rgb10a2 ||
+      (stored == Stored::Integer && sheet.decoding.kind == Decoding::Kind::Scaled);
+  return fractions && sheet.decoding.kind != Decoding::Kind::Rgbd ? 1 : Reading{}.ceiling;
+}
+
 std::vector<double> plane_of(Meaning meaning, const Reading& reading, const Grid& grid) {
   const size_t count = reading.mus.size();
   std::vector<double> plane(count * reading.alphas.size());
@@ -18,6 +28,7 @@ std::vector<double> plane_of(Meaning meaning, const Reading& reading, const Grid
   for (size_t i = 0; i < plane.size(); ++i) {
     plane[i] = value_of(meaning, diffuse ? Terms{} : grid.terms[i], reading.mus[i % count],
                         reading.alphas[i / count]);
+    plane[i] = std::min(plane[i], reading.ceiling);
   }
   return plane;
 }
@@ -79,6 +90,13 @@ Values values_of(const Sheet& sheet, bool transposed, const Places& places) {
     channel = turned;
   }
   return values;
+}
+
+Reading reading_of(const Sheet& sheet, bool transposed, const Places& places) {
+  Reading reading;
+  reading.values = values_of(sheet, transposed, places);
+  reading.ceiling = ceiling_of(sheet);
+  return reading;
 }
 
 std::vector<double> cosines_of(const Sheet& sheet, const TableAxes& axes, const Places& places) {

@@ -13,6 +13,7 @@ namespace kiln::validate {
 struct Reading {
   Values values;
   std::vector<double> mus, alphas;
+  double ceiling = 1e300;  ///< greatest value that the storage holds
 };
 
 /// The entries of the sheet at these places along the axes of directions and widths.
@@ -21,6 +22,9 @@ struct Places {
 };
 Places spread_places(const Sheet& sheet, bool transposed, int most);
 Values values_of(const Sheet& sheet, bool transposed, const Places& places);
+
+/// The entries at these places, not yet placed along axes.
+Reading reading_of(const Sheet& sheet, bool transposed, const Places& places);
 std::vector<double> cosines_of(const Sheet& sheet, const TableAxes& axes, const Places& places);
 std::vector<double> alphas_of(const Sheet& sheet, const TableAxes& axes, const Places& places);
 

@@ -32,6 +32,7 @@ const std::vector<Preset>& all_presets() {
   static const std::vector<Preset> presets{
       {"khronos", upright, {Scale, Bias}},
       {"khronos", upright, {Scale, Bias, Albedo}},
+      {"khronos", upright, {Albedo}, "neubelt-clamped"},
       {"filament", reversed, {Scale, Bias}},
       {"filament-multiscatter", reversed, {Bias, Albedo}},
       {"filament-cloth", reversed, {Bias, Albedo, Albedo}},
@@ -40,6 +41,7 @@ const std::vector<Preset>& all_presets() {
       {"godot", reversed, {Bias, Albedo, Albedo}},
       {"unreal", upright, {Scale, Bias}},
       {"unreal", upright, {Scale, Bias}, "hammon"},
+      {"unity-hdrp", hdrp, {Bias, Albedo, UnityDisney}},
       {"unity-hdrp", hdrp, {Bias, Albedo, BurleyLessHalf}},
       {"materialx", by_alpha, {Scale, Bias}},
       {"materialx", by_alpha, {Scale, Bias, Albedo}},
@@ -63,11 +65,23 @@ bool same_meanings(const Preset& preset, const Candidate& candidate) {
   return meanings == preset.meanings;
 }
 
+// Averages of GGX over roughness, on nodes.
+std::vector<std::string> curve_presets(const Candidate& candidate) {
+  const TableAxes& axes = candidate.axes;
+  const bool width = axes.width == WidthAxis::Roughness && !axes.width_reversed;
+  if (!width || axes.width_alignment != nodes || candidate.fits.size() != 1) return {};
+  const ChannelFit& fit = candidate.fits[0];
+  if (fit.constant || fit.model < 0 || fit.meaning != Meaning::Albedo) return {};
+  const Lobe& lobe = tried_lobes()[fit.model].lobe;
+  if (lobe.distribution != "ggx" || lobe.masking != "smith-correlated") return {};
+  return {"cycles"};
+}
+
 }  // namespace
 
 std::vector<std::string> presets_like(const Sheet& sheet, const Candidate& candidate) {
   std::vector<std::string> names;
-  if (sheet.is_curve()) return names;
+  if (sheet.is_curve()) return curve_presets(candidate);
   // Pictures of some engines are upside down; numbers in a text begin with the row of texel (0, 0).
   const bool text = sheet.array->stored == NumberArray::Stored::Integer ||
                     sheet.array->stored == NumberArray::Stored::Decimal;

@@ -96,7 +96,7 @@ void search_sheet(const Sheet& sheet, int index, const std::vector<int>& lobes, 
   for (const bool transposed : {false, true}) {
     if (sheet.is_curve() && !transposed) continue;
     const Places places = spread_places(sheet, transposed, coarse_entries);
-    Reading reading{values_of(sheet, transposed, places), {}, {}};
+    Reading reading = reading_of(sheet, transposed, places);
     if (!varies(reading.values)) return;
     for (TableAxes axes : all_axes()) {
       if (axes.transposed != transposed || !fits_shape(sheet, axes)) continue;
@@ -129,7 +129,7 @@ std::vector<ChannelFit> refit(const Sheet& sheet, const Reading& reading,
   for (size_t c = 0; c < fits.size(); ++c) {
     if (fits[c].constant) continue;
     std::vector<ChannelFit> one(1);
-    const Reading channel{{reading.values[c]}, reading.mus, reading.alphas};
+    const Reading channel{{reading.values[c]}, reading.mus, reading.alphas, reading.ceiling};
     improve_fits(channel, fits[c].model, grids[fits[c].model], {&fits[c].meaning, 1}, one);
     fits[c] = one[0];
   }
@@ -196,7 +196,7 @@ double handicapped(const Candidate& candidate) {
 
 Candidate align(const Sheet& sheet, const Candidate& candidate, int entries) {
   const Places places = spread_places(sheet, candidate.axes.transposed, entries);
-  Reading reading{values_of(sheet, candidate.axes.transposed, places), {}, {}};
+  Reading reading = reading_of(sheet, candidate.axes.transposed, places);
   Candidate best = candidate;
   for (int pass = 0; pass < 2; ++pass) {
     const TableAxes before = best.axes;
@@ -210,7 +210,7 @@ Candidate align(const Sheet& sheet, const Candidate& candidate, int entries) {
 // The best of the candidate and those a step of one axis away, by exact integrals.
 static Candidate one_step(const Sheet& sheet, const Candidate& candidate, int entries) {
   const Places places = spread_places(sheet, candidate.axes.transposed, entries);
-  Reading reading{values_of(sheet, candidate.axes.transposed, places), {}, {}};
+  Reading reading = reading_of(sheet, candidate.axes.transposed, places);
   std::vector<Candidate> near = aligned(sheet, candidate, places, reading, false);
   if (!sheet.is_curve()) {
     for (Candidate& one : aligned(sheet, candidate, places, reading, true)) {
@@ -260,7 +260,7 @@ Comparison compare(const Sheet& sheet, const Candidate& candidate, int most) {
   Comparison result;
   result.places = spread_places(sheet, candidate.axes.transposed, most);
   Reading& reading = result.reading;
-  reading.values = values_of(sheet, candidate.axes.transposed, result.places);
+  reading = reading_of(sheet, candidate.axes.transposed, result.places);
   reading.mus = cosines_of(sheet, candidate.axes, result.places);
   reading.alphas = alphas_of(sheet, candidate.axes, result.places);
   std::map<int, Grid> grids;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "decoding.h"
 
@@ -21,7 +22,17 @@ Arrangement arrange(int width, int height, int channels, bool planar) {
           channels,
           planar,
           channels == 1 ? fmt::format("{} x {}", width, height)
-                        : fmt::format("{} x {} x {}{}", width, height, channels, order)};
+                        : fmt::format("{} x {} x {}{}", width, height, channels, order),
+          1};
+}
+
+Arrangement arrange_slices(int width, int height, int depth, int channels) {
+  return {{width, height * depth},
+          channels,
+          false,
+          fmt::format("{} x {} x {}{}", width, height, depth,
+                      channels == 1 ? "" : fmt::format(" x {}, interleaved", channels)),
+          depth};
 }
 
 bool tableau(long long width, long long height) {
@@ -107,6 +118,38 @@ std::vector<Arrangement> arrangements(const NumberArray& array) {
     return static_cast<size_t>(area(one.size)) * one.channels > n;
   });
   return found;
+}
+
+// Lists of 8 to 64 numbers cubed, of up to four channels.
+std::vector<Arrangement> cubes_of_length(size_t n) {
+  std::vector<Arrangement> found;
+  for (int channels = 1; channels <= 4; ++channels) {
+    for (int side = 8; side <= 64; ++side) {
+      const size_t count = static_cast<size_t>(side) * side * side * channels;
+      if (count == n) found.push_back(arrange_slices(side, side, side, channels));
+    }
+  }
+  return found;
+}
+
+std::vector<Arrangement> solid_arrangements(const NumberArray& array) {
+  const std::vector<int>& s = array.shape;
+  const auto product =
+      std::accumulate(s.begin(), s.end(), size_t{1}, [](size_t all, int one) { return all * one; });
+  if (!s.empty() && product != array.values.size()) return {};
+  if (!has_shape(array)) return cubes_of_length(array.values.size());
+  if (s.size() == 4 && s[3] <= 4 && s[0] > 1 && tableau(s[1], s[2])) {
+    return {arrange_slices(s[2], s[1], s[0], s[3])};
+  }
+  if (s.size() == 3 && s[2] > most_channels && tableau(s[1], s[0])) {
+    return {arrange_slices(s[2], s[1], s[0], 1)};
+  }
+  const bool plane = s.size() == 2 || (s.size() == 3 && s[2] <= 4);
+  const int channels = s.size() == 3 ? s[2] : 1;
+  if (plane && s[0] > s[1] && s[0] % s[1] == 0 && s[1] >= least_side) {
+    return {arrange_slices(s[1], s[1], s[0] / s[1], channels)};
+  }
+  return {};
 }
 
 std::string channel_name(const NumberArray& array, int c, int count) {
@@ -240,6 +283,20 @@ Values values_at(const Sheet& sheet, const std::vector<int>& columns,
 std::vector<Sheet> joined_sheets(const std::vector<NumberArray>& arrays) {
   std::vector<Sheet> all;
   append_joined(arrays, all);
+  return all;
+}
+
+std::vector<Sheet> solid_sheets(const std::vector<NumberArray>& arrays) {
+  std::vector<Sheet> all;
+  for (const NumberArray& array : arrays) {
+    const auto shared = std::make_shared<NumberArray>(array);
+    for (const Arrangement& arrangement : solid_arrangements(array)) {
+      for (const Decoding& decoding : decodings(array)) {
+        if (decoding.channels != 0) continue;
+        all.push_back(make_sheet(shared, arrangement, decoding));
+      }
+    }
+  }
   return all;
 }
 

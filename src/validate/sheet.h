@@ -17,6 +17,7 @@ struct Arrangement {
   int channels = 1;
   bool planar = false;
   std::string words;
+  int depth = 1;  ///< slices, one below the other in `size`
 
   size_t at(int channel, size_t entry) const {
     return planar ? channel * static_cast<size_t>(area(size)) + entry : entry * channels + channel;
@@ -39,6 +40,10 @@ std::vector<Sheet> possible_sheets(const std::vector<NumberArray>& arrays);
 
 /// The same for two to four arrays of one shape that are a channel each; else nothing.
 std::vector<Sheet> joined_sheets(const std::vector<NumberArray>& arrays);
+
+/// All ways worth trying to read each array as slices: told by its shape, a tall image, or a list
+/// of as many numbers as a cube has.
+std::vector<Sheet> solid_sheets(const std::vector<NumberArray>& arrays);
 
 /// Values of the entries in these columns and rows: [channel][row][column].
 using Values = std::vector<std::vector<double>>;

@@ -90,6 +90,21 @@ void state_encodings(const Finding& finding, std::vector<std::string>& statement
   }
 }
 
+void state_ceiling(const Finding& finding, std::vector<std::string>& statements) {
+  const double ceiling = finding.comparison.reading.ceiling;
+  for (size_t c = 0; c < finding.comparison.exact.size(); ++c) {
+    const ChannelMatch& channel = finding.match.channels[c];
+    // Cloth alone exceeds 1.
+    if (!channel.known || channel.constant || channel.distribution != "charlie") continue;
+    const std::vector<double>& exact = finding.comparison.exact[c];
+    const auto count = std::count(exact.begin(), exact.end(), ceiling);
+    if (count == 0) continue;
+    statements.push_back(fmt::format(
+        "channel {}: {} of {} entries stop at {:g}, the greatest number that this storage holds",
+        channel.channel, count, exact.size(), ceiling));
+  }
+}
+
 std::string attribute(const NumberArray& array, const std::string& name) {
   for (const auto& [key, value] : array.attributes) {
     if (key == name) return value;
@@ -180,6 +195,7 @@ std::vector<std::string> statements_on(const Finding& finding) {
   state_shift(finding, false, statements);
   if (!finding.sheet.is_curve()) state_shift(finding, true, statements);
   state_encodings(finding, statements);
+  state_ceiling(finding, statements);
   state_metadata(finding, statements);
   state_noise(finding, statements);
   return statements;

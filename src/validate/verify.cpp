@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "judge.h"
+#include "kind_judge.h"
+#include "ltc_reading.h"
 #include "presets.h"
 #include "statements.h"
 
@@ -108,12 +110,31 @@ Verdict verify_sheets(const std::vector<Sheet>& sheets) {
   return verdict;
 }
 
+// Channels of the best match that hold something unknown.
+bool leaves_channels(const Verdict& verdict) {
+  return std::any_of(verdict.best.channels.begin(), verdict.best.channels.end(),
+                     [](const ChannelMatch& channel) { return !channel.known; });
+}
+
+// Kinds that are quick to tell first, then lobes, then what may explain more than they do.
+Verdict verify_arrays(const std::vector<NumberArray>& arrays) {
+  Verdict verdict = verify_kinds(solid_sheets(arrays));
+  if (verdict.fits) return verdict;
+  const std::vector<Sheet> sheets = possible_sheets(arrays);
+  verdict = verify_cosines(sheets);
+  if (verdict.fits) return verdict;
+  verdict = verify_sheets(sheets);
+  if (verdict.fits && !leaves_channels(verdict)) return verdict;
+  Verdict other = verify_kinds(sheets);
+  return other.fits ? other : verdict;
+}
+
 }  // namespace
 }  // namespace validate
 
 Verdict verify_tables(const std::vector<NumberArray>& arrays, const VerifyOptions& options) {
   Verdict verdict = validate::verify_sheets(validate::joined_sheets(arrays));
-  if (!verdict.fits) verdict = validate::verify_sheets(validate::possible_sheets(arrays));
+  if (!verdict.fits) verdict = validate::verify_arrays(arrays);
   if (options.max_error > 0) {
     verdict.within = verdict.fits && verdict.best.max_error <= options.max_error;
   }

@@ -65,7 +65,7 @@ struct Match {
   std::vector<ChannelMatch> channels;
   double max_error = 0, rms_error = 0;  ///< over the channels that are known
   double mu = 0, roughness = 0;         ///< where the greatest error sits; roughness = sqrt(alpha)
-  int x = 0, y = 0;
+  int x = 0, y = 0, z = 0;              ///< z: slice
   std::string channel;
 };
 
@@ -75,7 +75,8 @@ struct Verdict {
   bool within = true;  ///< max_error was not asked for, or is kept by a table that fits
   Match best;
   std::optional<Match> runner_up;  ///< best of another class: other axes, lobe or meaning
-  double ratio = 0;  ///< rms error of the runner-up over that of the best, same channels
+  double ratio = 0;           ///< rms error of the runner-up over that of the best, same channels
+  std::vector<Match> others;  ///< what other arrays of the file are
   std::vector<std::string> statements;  ///< what is wrong or cannot be told, smallest first
   std::vector<std::string> presets;     ///< whose convention coincides
   Layers errors;                        ///< stored - exact, one plane "error.NAME" a known channel
