@@ -63,6 +63,36 @@ void reference(benchmark::State& state, const char* diffuse) {
 BENCHMARK_CAPTURE(reference, lambert, "lambert")->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(reference, eon, "eon")->UseRealTime()->Unit(benchmark::kMillisecond);
 
+// The same for models that run in stages.
+void staged(benchmark::State& state, const char* distribution, const char* fresnel) {
+  Stage stage({512, 512});
+  Ingredients ingredients = stage.ingredients();
+  ingredients.surface.distribution = distribution;
+  ingredients.surface.fresnel = fresnel;
+  const auto albedo = make_albedo_table(ingredients.surface);
+  ingredients.albedo = albedo.get();
+  const auto recipe = recipe_of({{"samples", "64"}});
+  for (auto _ : state) benchmark::DoNotOptimize(recipe->bake(ingredients));
+  state.SetItemsProcessed(state.iterations() * 64 * 512 * 512);
+}
+BENCHMARK_CAPTURE(staged, ggx_dielectric, "ggx", "dielectric")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(staged, beckmann_conductor, "beckmann", "conductor")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+// Glass: paths/s.
+void glass(benchmark::State& state) {
+  const Stage stage({512, 512});
+  Ingredients ingredients = stage.ingredients();
+  ingredients.surface.bsdf = "glass";
+  const auto recipe = recipe_of({{"samples", "64"}, {"shape", "sphere"}, {"size", "256"}});
+  for (auto _ : state) benchmark::DoNotOptimize(recipe->bake(ingredients));
+  state.SetItemsProcessed(state.iterations() * 64 * 256 * 256);
+}
+BENCHMARK(glass)->UseRealTime()->Unit(benchmark::kMillisecond);
+
 // Time to a mean standard error of 0.01 at 256 x 256.
 void reference_to_error(benchmark::State& state) {
   const Stage stage({256, 256});
