@@ -73,7 +73,7 @@ Param<Settings> fresnel_param(const FresnelNumber& number) {
 // "128", "128x32": shown as the kind's default.
 Param<Settings> size_param() {
   Param<Settings> param = extent_param("size", &Settings::size, {2, 8192}, "entries along x and y");
-  param.facts.default_text = "128x128, or the preset's";
+  param.facts.default_text = "the table's or preset's own";
   return param;
 }
 
@@ -219,7 +219,7 @@ Params<Settings> LutBake::params() {
       named_param("table", &Settings::table, table_names(), "what is integrated"),
       named_param("preset", &Settings::preset, lut_preset_names(), "layout of an engine"),
       size_param(),
-      integer_param("depth", &Settings::depth, {0, 1024}, "slices of a 3-D table; 0 is 16"),
+      integer_param("depth", &Settings::depth, {0, 1024}, "slices of a 3-D table; 0: its own"),
       text_param("axes", &Settings::axes, "mappings of x, y, z (kiln list axes)"),
       named_param("align", &Settings::align, {"center", "corner"}, "where entries lie"),
       named_param("origin", &Settings::origin, {"top", "bottom"}, "row of the least y"),
@@ -228,9 +228,9 @@ Params<Settings> LutBake::params() {
                   "microfacet normals"),
       named_param("masking", &Settings::masking, model_names("masking"), "masking and shadowing"),
       number_param("shape", &Settings::shape, {0, 1000}, "",
-                   "exponent of distributions that have one; 0 is the model's default"),
+                   "of distributions that have one; 0: its default"),
       named_param("fresnel", &Settings::fresnel, model_names("fresnel"),
-                  "Fresnel term of reflectances; none: F = 1, or Schlick's terms apart"),
+                  "Fresnel term of reflectances, instead of F = 1"),
       flag_param("exact", &Settings::exact, "entries to 1e-10 instead of 1e-6"),
   };
   for (const FresnelNumber& number : fresnel_numbers) params.push_back(fresnel_param(number));

@@ -29,6 +29,7 @@ std::string wrapped(const std::string& text) {
 // "-o, --output DIR"
 std::string spelled(const CLI::Option& option) {
   std::string name = option.get_name(false, true);
+  name = name.substr(0, name.find('{'));  // the value that a flag stands for
   if (const size_t comma = name.find(','); comma != std::string::npos) name.insert(comma + 1, " ");
   const std::string type = option.get_type_name();
   return type.empty() ? name : name + " " + type;
@@ -38,6 +39,17 @@ std::string line_of(const CLI::Option& option) {
   const std::string name = "  " + spelled(option);
   const std::string gap(name.size() + 2 <= indent ? indent - name.size() : 2, ' ');
   return name + gap + wrapped(option.get_description()) + "\n";
+}
+
+std::string surface_options(const CLI::App& app) {
+  std::string names;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group() == of_the_surface) names += spelled(*option) + ", ";
+  }
+  if (names.empty()) return "";
+  names.resize(names.size() - 2);
+  return "\n  surface (kiln list)     " +
+         wrapped("choices and ranges by kiln list surface: " + names) + "\n";
 }
 
 }  // namespace
@@ -59,8 +71,10 @@ std::string overview() {
 std::string help_of(const Verb& verb, const CLI::App& app) {
   std::string text = fmt::format("kiln {} {}\n{}\n\n", verb.name, verb.arguments, verb.summary);
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group() != every_verb) text += line_of(*option);
+    const std::string group = option->get_group();
+    if (group != every_verb && group != of_the_surface) text += line_of(*option);
   }
+  text += surface_options(app);
   text +=
       "\nOf every verb: -h, --help; --json, the result for machines; -q, --quiet; -v, --verbose;\n"
       "-j, --threads N; --ocio FILE, a config over the file's and $OCIO; --isa auto|avx2;\n"

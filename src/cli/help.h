@@ -10,6 +10,9 @@ namespace kiln {
 /// Name of the group of options that every verb has; the help tells them in short at its end.
 inline constexpr const char* every_verb = "every verb";
 
+/// Of options that choose a surface's models; the help names them, `kiln list surface` tells more.
+inline constexpr const char* of_the_surface = "of the surface";
+
 /// What there is: every verb on a line, and the exit codes.
 std::string overview();
 

@@ -50,6 +50,16 @@ Key key_of(const ModelParam& param) {
   return key;
 }
 
+std::string range_text(const ParamFacts& facts) {
+  if (!facts.choices.empty()) return fmt::format("{}", fmt::join(facts.choices, " | "));
+  const bool numeric = facts.kind == ParamFacts::Kind::Integer ||
+                       facts.kind == ParamFacts::Kind::Number ||
+                       facts.kind == ParamFacts::Kind::Extent;
+  if (!numeric || std::isinf(facts.min)) return "";
+  return std::isinf(facts.max) ? fmt::format(">= {}", facts.min)
+                               : fmt::format("{} .. {}", facts.min, facts.max);
+}
+
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 std::vector<Item> list_models(const Globals&) {
@@ -157,6 +167,19 @@ std::vector<Item> list_bakes(const Globals&) {
   return items;
 }
 
+std::vector<Item> list_surface(const Globals&) {
+  std::vector<Item> items;
+  for (const ParamFacts& facts : facts_of(surface_params())) {
+    Item item{kebab(facts.name), facts.meaning};
+    if (const std::string range = range_text(facts); !range.empty()) {
+      item.facts.emplace_back("takes", range);
+    }
+    if (!facts.default_text.empty()) item.facts.emplace_back("default", facts.default_text);
+    items.push_back(std::move(item));
+  }
+  return items;
+}
+
 std::vector<Item> list_namings(const Globals&) {
   std::vector<Item> items;
   for (const NamingScheme& scheme : all_naming_schemes()) {
@@ -207,21 +230,12 @@ const std::vector<Kind>& kinds() {
        [](const Globals&) { return items_of(list_lut_channels()); }},
       {"presets", "layouts of engines for kiln lut",
        [](const Globals&) { return items_of(list_lut_presets()); }},
+      {"surface", "models and numbers of a material", list_surface, [](Item&) {}},
       {"bakes", "what a pipeline file can make", list_bakes},
       {"namings", "schemes that tell a map's slot from its file name", list_namings},
       {"maps", "slots of a texture set", list_slots},
       {"colour-spaces", "of the OpenColorIO config in use", list_color_spaces}};
   return list;
-}
-
-std::string range_text(const ParamFacts& facts) {
-  if (!facts.choices.empty()) return fmt::format("{}", fmt::join(facts.choices, " | "));
-  const bool numeric = facts.kind == ParamFacts::Kind::Integer ||
-                       facts.kind == ParamFacts::Kind::Number ||
-                       facts.kind == ParamFacts::Kind::Extent;
-  if (!numeric || std::isinf(facts.min)) return "";
-  return std::isinf(facts.max) ? fmt::format(">= {}", facts.min)
-                               : fmt::format("{} .. {}", facts.min, facts.max);
 }
 
 void print_item(const Item& item) {
@@ -334,7 +348,7 @@ int run(const std::string& word, const Globals& globals) {
 Action declare(CLI::App& app) {
   const auto word = std::make_shared<std::string>();
   app.add_option("WORD", *word,
-                 "models, lobes, tables, axes, channels, presets, bakes, namings, maps, "
+                 "models, lobes, tables, axes, channels, presets, surface, bakes, namings, maps, "
                  "colour-spaces, schema, or "
                  "the name of one")
       ->type_name("");

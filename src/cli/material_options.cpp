@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "help.h"
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
 #include "kiln/material/naming.h"
@@ -54,12 +55,9 @@ void MaterialOptions::declare_models(CLI::App& app) {
   for (const Param<SurfaceChoice>& param : params) {
     const ParamFacts& facts = param.facts;
     models.emplace_back(facts.name, "");
-    const bool word = facts.kind == ParamFacts::Kind::Word;
-    const std::string choices =
-        word ? fmt::format(": {}", fmt::join(facts.choices, ", ")) : std::string();
-    app.add_option("--" + kebab(facts.name), models.back().second,
-                   fmt::format("{}{}", facts.meaning, choices))
-        ->type_name(word ? "WORD" : "NUMBER");
+    app.add_option("--" + kebab(facts.name), models.back().second, facts.meaning)
+        ->type_name(facts.kind == ParamFacts::Kind::Word ? "WORD" : "X")
+        ->group(of_the_surface);
   }
 }
 

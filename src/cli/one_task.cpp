@@ -15,10 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// All choices, or the first of many: kiln list has the rest.
+std::string listed(const std::vector<std::string>& choices) {
+  constexpr size_t most = 7;
+  if (choices.size() <= most) return fmt::format("{}", fmt::join(choices, ", "));
+  return fmt::format("{}, ... (kiln list)", fmt::join(choices.begin(), choices.begin() + 4, ", "));
+}
+
 std::string described(const ParamFacts& facts) {
   std::string text = facts.meaning;
   if (!facts.unit.empty()) text += " " + facts.unit;
-  if (!facts.choices.empty()) text += fmt::format(": {}", fmt::join(facts.choices, ", "));
+  if (!facts.choices.empty()) text += ": " + listed(facts.choices);
   const bool shown = !facts.default_text.empty() && facts.kind != ParamFacts::Kind::Flag;
   if (shown) text += fmt::format(" (default {})", facts.default_text);
   return text;

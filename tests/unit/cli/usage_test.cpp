@@ -17,7 +17,8 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-const std::vector<std::string> verbs = {"run", "lut", "verify", "env", "preview", "inspect", "diff", "list"};
+const std::vector<std::string> verbs = {"run",     "lut",     "verify", "env",
+                                        "preview", "inspect", "diff",   "list"};
 
 void expect_refused(const std::vector<std::string>& arguments, const std::string& message,
                     int code = 2) {
@@ -34,7 +35,7 @@ TEST(Help, ListsTheVerbsThatThereAreAndNoOther) {
   const Outcome help = kiln(shop, {"--help"});
   EXPECT_EQ(help.code, 0);
   for (const std::string& verb : verbs) EXPECT_THAT(help.out, HasSubstr("  kiln " + verb + " "));
-  for (const char* absent : {"verify", "validate", "farm", "merge"}) {
+  for (const char* absent : {"validate", "farm", "merge"}) {
     EXPECT_THAT(help.out, Not(HasSubstr(absent)));
   }
 }
