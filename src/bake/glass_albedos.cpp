@@ -6,6 +6,12 @@
 #include "kiln/table/glass_albedo.h"
 
 namespace kiln {
+namespace {
+
+// Errs by less than the lookup.
+constexpr QuadratureOrder coarse{12, 12};
+
+}  // namespace
 
 GlassAlbedos::GlassAlbedos(double ior) : entries_(2 * nodes * nodes) {
   for_rows(2 * nodes, [&](int row) {
@@ -14,7 +20,7 @@ GlassAlbedos::GlassAlbedos(double ior) : entries_(2 * nodes * nodes) {
     for (int i = 0; i < nodes; ++i) {
       const double mu = square(static_cast<double>(i) / (nodes - 1));
       entries_[static_cast<size_t>(row) * nodes + static_cast<size_t>(i)] =
-          static_cast<float>(integrate_glass(mu, alpha, eta).total());
+          static_cast<float>(integrate_glass(mu, alpha, eta, coarse).total());
     }
   });
 }

@@ -11,10 +11,10 @@ namespace kiln {
 /// tabulated for path tracing. 1 over it makes up for what bounces more than once.
 ///
 /// Nodes lie on the borders; the axes are sqrt(mu) and sqrt(roughness).
-/// @accuracy bilinear lookup, index 1.5: 3e-3 for mu >= 0.05 and roughness >= 0.05; 5e-2 at worst
+/// @accuracy bilinear lookup, index 1.5: 1e-3 for mu >= 0.05 and roughness >= 0.05; 3e-2 at worst
 class GlassAlbedos {
  public:
-  static constexpr int nodes = 32;  ///< along each axis
+  static constexpr int nodes = 64;  ///< along each axis
 
   /// @param ior  of the body over that of its surroundings
   explicit GlassAlbedos(double ior);

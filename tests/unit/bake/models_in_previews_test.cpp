@@ -164,8 +164,9 @@ TEST(StagedPreview, RefusesModelsThatDoNotFit) {
 
 TEST(StagedPreview, OfEveryListedModelIsFiniteAndNotNegative) {
   const auto shared = make_albedo_table();
-  const auto expect_sound = [&](const SurfaceChoice& surface, const std::string& which) {
-    for (const char* mode : {"reference", "split-sum"}) {
+  const auto expect_sound = [&](const SurfaceChoice& surface, const std::string& which,
+                                const std::vector<const char*>& modes) {
+    for (const char* mode : modes) {
       const Baked baked = bake_preview(varied_svbrdf(), lamp(),
                                        {{"samples", "16"}, {"mode", mode}, {"view", "60,0"}},
                                        surface, shared.get());
@@ -178,19 +179,19 @@ TEST(StagedPreview, OfEveryListedModelIsFiniteAndNotNegative) {
     surface.distribution = Distribution<double>::name;
     surface.masking = Masking<double>::name;
     surface.fresnel = "dielectric";
-    expect_sound(surface, surface.distribution + " " + surface.masking);
+    expect_sound(surface, surface.distribution + " " + surface.masking, {"reference"});
   });
   for (const std::string& fresnel : model_names("fresnel")) {
     SurfaceChoice surface;
     surface.fresnel = fresnel;
     surface.energy = "turquin";
-    expect_sound(surface, fresnel);
+    expect_sound(surface, fresnel, {"reference", "split-sum"});
   }
   for (const std::string& diffuse : model_names("diffuse")) {
     SurfaceChoice surface;
     surface.diffuse = diffuse;
     surface.coupling = "albedo-scaling";
-    expect_sound(surface, diffuse);
+    expect_sound(surface, diffuse, {"reference", "split-sum"});
   }
 }
 
@@ -214,14 +215,14 @@ double mean_shown(const Layers& image) {
 
 TEST(GlassPreview, InAWhiteRoomIsWhiteHoweverRoughAndBent) {
   for (const char* shape : {"flat", "sphere"}) {
-    for (const float roughness : {0.0f, 0.05f, 0.3f, 0.8f}) {
+    for (const float roughness : {0.05f, 0.3f, 0.8f}) {
       for (const float lean : {0.0f, 0.3f}) {
         Uniform texel{.roughness = roughness};
         texel.normal = {lean, 0, std::sqrt(1 - lean * lean)};
         const Baked baked = bake_preview(
             uniform_svbrdf(texel), test::constant_latlong(1),
-            {{"shape", shape}, {"size", "48"}, {"view", "40,0"}, {"samples", "128"}}, glass());
-        EXPECT_NEAR(mean_shown(picture_of(baked)), 1, 2e-2)
+            {{"shape", shape}, {"size", "24"}, {"view", "40,0"}, {"samples", "128"}}, glass());
+        EXPECT_NEAR(mean_shown(picture_of(baked)), 1, 1e-2)
             << shape << " " << roughness << " " << lean;
         EXPECT_NEAR(figure(baked, "energy lost"), 1 - mean_shown(picture_of(baked)), 1e-4);
       }
