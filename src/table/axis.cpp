@@ -20,11 +20,11 @@ double fourth_power(double x) { return squared(squared(x)); }
 double fourth_root(double x) { return std::sqrt(std::sqrt(x)); }
 double complement(double x) { return 1 - x; }
 
-// The greatest index of refraction that the last entry of an ior axis stands for.
-constexpr double last_ior_position = 0.99;
+// Where the last entry of an axis lies whose end is infinite.
+constexpr double last_position = 0.99;
 
 double ior_value(double u) {
-  const double z = squared(std::min(u, last_ior_position));
+  const double z = squared(std::min(u, last_position));
   return (1 + z) / (1 - z);
 }
 
@@ -74,7 +74,13 @@ std::vector<AxisMapping> make_list() {
        complement},
       {"f0", {}, F0, "u = F0", "f0", same, same},
       {"sqrt-f0", {"sqrt(f0)"}, F0, "u = sqrt(F0)", "sqrt(f0)", squared, root},
-      {"fourth-root-f0", {}, F0, "u = F0^(1/4)", "sqrt(sqrt(f0))", fourth_power, fourth_root},
+      {"fourth-root-f0",
+       {},
+       F0,
+       "u = F0^(1/4); the last entry holds u = 0.99",
+       "sqrt(sqrt(f0))",
+       [](double u) { return fourth_power(std::min(u, last_position)); },
+       fourth_root},
       {"ior",
        {},
        Ior,
@@ -90,6 +96,16 @@ std::vector<AxisMapping> make_list() {
        "cosine * 0.5 + 0.5",
        [](double u) { return 2 * u - 1; },
        [](double cosine) { return 0.5 * cosine + 0.5; }},
+      {"schlick-exponent",
+       {},
+       Exponent,
+       "u = 5 / (5 + exponent of 1 - c); the last entry holds u = 0.99",
+       "5.0 / (5.0 + exponent)",
+       [](double u) {
+         const double z = std::clamp(u, 1e-4, last_position);
+         return 5 * (1 - z) / z;
+       },
+       [](double exponent) { return 5 / (5 + exponent); }},
       {"curvature", {}, Curvature, "u = curvature [1/mm]", "curvature", same, same},
   };
 }
@@ -121,8 +137,8 @@ double entry_position(int i, int count, Alignment alignment) {
 }
 
 std::string quantity_name(Quantity quantity) {
-  constexpr const char* names[] = {"mu",         "roughness", "f0",       "ior",
-                                   "anisotropy", "cosine",    "curvature"};
+  constexpr const char* names[] = {"mu",         "roughness", "f0",        "ior",
+                                   "anisotropy", "cosine",    "curvature", "exponent"};
   return names[static_cast<int>(quantity)];
 }
 

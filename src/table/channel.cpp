@@ -26,8 +26,9 @@ std::vector<ChannelFacts> make_list() {
 
 std::string key_of(const Lobe& lobe, const FresnelChoice& fresnel) {
   const FresnelChannel<double>& p = fresnel.parameters;
-  return fmt::format("{} {} {} {} {} {} {} {} {}", lobe.distribution, lobe.masking, lobe.shape,
-                     fresnel.name, p.f0, p.f90, p.f82, p.ior, p.extinction);
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", lobe.distribution, lobe.masking,
+                     lobe.shape, fresnel.name, p.f0, p.f90, p.f82, p.ior, p.extinction, p.edge_tint,
+                     p.dip, p.exponent);
 }
 
 }  // namespace

@@ -75,15 +75,45 @@ std::vector<double> fill_constant(TableContext&) {
   return {static_cast<double>(Value)};
 }
 
+FresnelChoice dielectric_of(const char* name, double f0) {
+  const double root = std::sqrt(std::clamp(f0, 0.0, 0.9999));
+  FresnelChoice fresnel{name, {}};
+  fresnel.parameters.ior = (1 + root) / (1 - root);
+  return fresnel;
+}
+
 // The dielectric of each F0, on [f0][roughness][mu].
 std::vector<double> fill_dielectric(TableContext& context) {
   std::vector<double> values;
   for (const double f0 : context.grid.of(F0)) {
-    const double root = std::sqrt(std::clamp(f0, 0.0, 0.9999));
-    FresnelChoice fresnel{"dielectric", {}};
-    fresnel.parameters.ior = (1 + root) / (1 - root);
-    const auto slice = fill_from(context, context.models.lobe, fresnel, scale_of);
+    const auto slice =
+        fill_from(context, context.models.lobe, dielectric_of("dielectric", f0), scale_of);
     values.insert(values.end(), slice.begin(), slice.end());
+  }
+  return values;
+}
+
+// Means over the visible normals whose reflection leaves the surface: what Cycles interpolates by.
+void append_shares(TableContext& context, const FresnelChoice& share, std::vector<double>& values) {
+  const Lobe visible{context.models.lobe.distribution, visible_normals, context.models.lobe.shape};
+  const auto slice = fill_from(context, visible, share, scale_of);
+  values.insert(values.end(), slice.begin(), slice.end());
+}
+
+std::vector<double> fill_dielectric_share(TableContext& context) {
+  std::vector<double> values;
+  for (const double f0 : context.grid.of(F0)) {
+    append_shares(context, dielectric_of(dielectric_share, f0), values);
+  }
+  return values;
+}
+
+std::vector<double> fill_schlick_share(TableContext& context) {
+  std::vector<double> values;
+  for (const double exponent : context.grid.of(Exponent)) {
+    FresnelChoice share{schlick_share, {}};
+    share.parameters.exponent = exponent;
+    append_shares(context, share, values);
   }
   return values;
 }
@@ -124,6 +154,16 @@ void add_lobe_channels(std::vector<ChannelFacts>& list) {
        "dielectric: reflectance of the lobe with the exact Fresnel of the index that has this F0",
        {Mu, Roughness, F0},
        fill_dielectric},
+      {"dielectric-share",
+       {},
+       "share: of F90 in a dielectric's F0 + share (F90 - F0), a mean over visible normals",
+       {Mu, Roughness, F0},
+       fill_dielectric_share},
+      {"schlick-share",
+       {},
+       "share: of F90 in Schlick's form with any exponent, a mean over visible normals",
+       {Mu, Roughness, Exponent},
+       fill_schlick_share},
       {"zero", {"0"}, "0", {}, fill_constant<0>},
       {"one", {"1"}, "1", {}, fill_constant<1>},
   };

@@ -35,10 +35,32 @@ void add_reflectance(const PointBlock& block, const FresnelChannel<double>& chan
   }
 }
 
+// How far a dielectric's reflectance lies from F0 toward 1, never below 0: a dense one dips under
+// its F0 before it rises.
+void add_dielectric_share(const PointBlock& block, const FresnelChannel<double>& channel,
+                          Wide* sums) {
+  const auto fresnel = Dielectric<Wide>::make(widened(channel));
+  const Wide f0 = fresnel.eval(Wide(1.0));
+  const Wide scale = Wide(1.0) / (Wide(1.0) - f0);
+  for (int i = 0; i < block.count; ++i) {
+    const Wide share = max(fresnel.eval(block.cosine[i]) - f0, Wide(0.0)) * scale;
+    sums[0] = fma(block.weight[i], share, sums[0]);
+  }
+}
+
+// (1 - c)^p, the weight of F90 in Schlick's form with an exponent of one's own.
+void add_schlick_share(const PointBlock& block, const FresnelChannel<double>& channel, Wide* sums) {
+  const Wide exponent = Wide(channel.exponent);
+  for (int i = 0; i < block.count; ++i) {
+    const Wide rest = clamp(Wide(1.0) - block.cosine[i], Wide(1e-300), Wide(1.0));
+    sums[0] = fma(block.weight[i], exp(exponent * log(rest)), sums[0]);
+  }
+}
+
 // One point, the mirror direction: what is left of a lobe as its width goes to 0.
 template <template <class> class Distribution, template <class> class Masking>
 void reflect_mirror(const ViewRule& view, double shape, const FresnelStage& stage, Wide* sums) {
-  const Wide width = Wide(1e-2 * min_alpha);
+  const Wide width = Wide(1e-4 * min_alpha);
   const auto distribution = Distribution<Wide>::make(width, width, Wide(shape));
   const Vec3<Wide> wo{Wide(view.sine), Wide(0.0), Wide(view.mu)}, wi{-wo.x, wo.y, wo.z};
   const Vec3<Wide> wm{Wide(0.0), Wide(0.0), Wide(1.0)};
@@ -48,6 +70,17 @@ void reflect_mirror(const ViewRule& view, double shape, const FresnelStage& stag
   block.cosine[0] = Wide(view.mu);
   stage.add(block, stage.fresnel, sums);
 }
+
+// No model of masking: with it a lobe is the density of visible normals, and integrals over it are
+// means over what a sampler of those draws, less what it sends below the horizon.
+template <class F>
+struct VisibleNormals {
+  template <class Distribution>
+  static F G2(const Distribution& distribution, const Vec3<F>& wo, const Vec3<F>&,
+              const Vec3<F>& wm) {
+    return SmithCorrelated<F>::G1(distribution, wo, wm);
+  }
+};
 
 template <template <class> class Distribution, template <class> class Masking>
 LobeKernels kernels_of() {
@@ -60,6 +93,15 @@ LobeKernels kernels_of() {
 
 LobeKernels find_lobe_kernels(const std::string& distribution, const std::string& masking) {
   LobeKernels found;
+  if (masking == visible_normals) {
+    with_lobe(distribution, "smith-correlated",
+              [&]<template <class> class Distribution, template <class> class Masking>() {
+                if constexpr (fits_together<Distribution, SmithCorrelated>) {
+                  found = kernels_of<Distribution, VisibleNormals>();
+                }
+              });
+    return found;
+  }
   with_lobe(kebab(distribution), kebab(masking),
             [&]<template <class> class Distribution, template <class> class Masking>() {
               found = kernels_of<Distribution, Masking>();
@@ -86,6 +128,8 @@ double shape_of(const std::string& distribution, double shape) {
 
 decltype(FresnelStage::add) find_fresnel_stage(const std::string& name) {
   if (name.empty()) return add_terms;
+  if (name == dielectric_share) return add_dielectric_share;
+  if (name == schlick_share) return add_schlick_share;
   decltype(FresnelStage::add) found = nullptr;
   Fresnels::for_each([&]<template <class> class Model>() {
     if (Model<double>::name == kebab(name)) found = add_reflectance<Model>;

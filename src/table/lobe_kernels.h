@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "kiln/table/lobe.h"
 #include "slope_quadrature.h"
 
 namespace kiln {

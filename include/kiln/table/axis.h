@@ -14,8 +14,10 @@ enum class Quantity {
   Ior,         ///< relative index of refraction, >= 1
   Anisotropy,  ///< [0..1]
   Cosine,      ///< n.l [-1..1]
-  Curvature    ///< [1/mm] [0..1]
+  Curvature,   ///< [1/mm] [0..1]
+  Exponent     ///< of Schlick's form
 };
+inline constexpr int quantity_count = 8;
 
 /// How a quantity lies along an axis of a table, whose position u runs over [0,1].
 struct AxisMapping {

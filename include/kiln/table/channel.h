@@ -19,7 +19,7 @@ struct TableModels {
 
 /// Where a table's entries lie: coordinates of each quantity, ascending or not.
 struct TableGrid {
-  std::array<std::vector<double>, 7> coordinates;  ///< by Quantity; empty: not an axis
+  std::array<std::vector<double>, quantity_count> coordinates;  ///< by Quantity; empty: not an axis
 
   const std::vector<double>& of(Quantity quantity) const {
     return coordinates[static_cast<size_t>(quantity)];

