@@ -23,6 +23,9 @@ class RecipeOf final : public Recipe {
     assign(Bake::params(), settings_, name, text);
   }
   Needs needs() const override { return Bake::needs(settings_); }
+  void check(const SurfaceChoice& surface) const override {
+    if constexpr (requires { Bake::check(settings_, surface); }) Bake::check(settings_, surface);
+  }
   Baked bake(const Ingredients& ingredients) const override {
     return Bake::bake(settings_, ingredients);
   }

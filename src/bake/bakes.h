@@ -71,6 +71,7 @@ struct PreviewBake {
   };
   static Params<Settings> params();
   static Needs needs(const Settings& settings);
+  static void check(const Settings& settings, const SurfaceChoice& surface);
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 

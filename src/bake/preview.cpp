@@ -159,16 +159,6 @@ void add_figures(const Settings& settings, const ShadingInputs& inputs, const Re
   }
 }
 
-// Words that are listed but cannot be rendered together.
-void check_models(const Settings& settings, const ShadingInputs& inputs) {
-  check_surface(inputs.surface);
-  if (is_glass(inputs) && settings.mode != PreviewBake::Mode::Reference) {
-    throw Error(Fault::Usage, fmt::format("bsdf: glass is rendered in mode reference only, found "
-                                          "mode {}",
-                                          mode_words[static_cast<size_t>(settings.mode)]));
-  }
-}
-
 }  // namespace
 
 Params<Settings> PreviewBake::params() {
@@ -195,10 +185,19 @@ Needs PreviewBake::needs(const Settings& settings) {
           .albedo = true};
 }
 
+void PreviewBake::check(const Settings& settings, const SurfaceChoice& surface) {
+  if (surface.bsdf == "glass" && settings.mode != Mode::Reference) {
+    throw Error(Fault::Usage, fmt::format("bsdf: glass is rendered in mode reference only, found "
+                                          "mode {}",
+                                          mode_words[static_cast<size_t>(settings.mode)]));
+  }
+}
+
 Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const Picture picture = make_picture(settings, *ingredients.material);
   const ShadingInputs inputs{ingredients.light, ingredients.albedo, ingredients.surface};
-  check_models(settings, inputs);
+  check_surface(inputs.surface);
+  check(settings, inputs.surface);
   Baked baked;
   add_model_notes(settings, inputs, baked);
   Layers image;

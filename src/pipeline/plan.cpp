@@ -47,6 +47,7 @@ Prepared prepare(const Pipeline& pipeline, const BakeChoice& choice, Mistakes& m
   for (const Setting& setting : choice.settings) {
     attempt(mistakes, setting.place, [&] { recipe->set(setting.name, setting.text); });
   }
+  attempt(mistakes, choice.place, [&] { recipe->check(pipeline.material.surface); });
   Prepared prepared{choice, facts, {}};
   Task& task = prepared.task;
   task.bake = choice.bake;

@@ -77,6 +77,9 @@ class Recipe {
   /// @error Fault::Usage with the nearest known parameter, or the range
   virtual void set(const std::string& name, const std::string& text) = 0;
   virtual Needs needs() const = 0;
+  /// Whether the settings and these models, which fit each other, can be baked together.
+  /// @error Fault::Usage
+  virtual void check(const SurfaceChoice& surface) const = 0;
   virtual Baked bake(const Ingredients& ingredients) const = 0;
 };
 

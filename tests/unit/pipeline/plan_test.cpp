@@ -110,6 +110,22 @@ TEST(Plan, WantsTheSetInTheOutputOfABakeThatRunsPerSet) {
               HasSubstr("expected '{set}' in it"));
 }
 
+TEST(Plan, RefusesModelsThatDoNotFitOrCannotBeBaked) {
+  const Workshop shop;
+  shop.paint_set("tex/a");
+  const std::string lit = "environment: { sky: s.exr }\nsets: [{ path: tex/a }]\n";
+  EXPECT_THAT(refusal_of(shop, lit + "material: { distribution: charlie }\n"
+                                     "bakes: [{ bake: preview, env: sky, out: a.exr }]\n"),
+              HasSubstr("masking 'smith-correlated' does not fit distribution 'charlie'"));
+  EXPECT_THAT(refusal_of(shop, lit + "material: { fresnel: schlik }\n"
+                                     "bakes: [{ bake: preview, env: sky, out: a.exr }]\n"),
+              HasSubstr("did you mean 'schlick'?"));
+  EXPECT_THAT(refusal_of(shop, lit + "material: { bsdf: glass }\n"
+                                     "bakes: [{ bake: preview, env: sky, mode: split-sum, "
+                                     "out: a.exr }]\n"),
+              HasSubstr("glass is rendered in mode reference only"));
+}
+
 TEST(Plan, RefusesFormatsAndTypesItCannotWrite) {
   const Workshop shop;
   EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: lut, out: a.exrr }]\n"),
