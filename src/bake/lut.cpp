@@ -72,8 +72,9 @@ Param<Settings> fresnel_param(const FresnelNumber& number) {
 
 // "128", "128x32": shown as the kind's default.
 Param<Settings> size_param() {
-  Param<Settings> param = extent_param("size", &Settings::size, {2, 8192}, "entries along x and y");
-  param.facts.default_text = "the table's or preset's own";
+  Param<Settings> param = extent_param("size", &Settings::size, {2, 8192},
+                                       "entries along x and y, if not the table's own");
+  param.facts.default_text.clear();  // the table's or the preset's
   return param;
 }
 

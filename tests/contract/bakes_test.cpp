@@ -22,6 +22,7 @@ TEST(EveryBake, AcceptsItsOwnDefaults) {
     const auto recipe = make_recipe(bake.name);
     for (const ParamFacts& param : bake.params) {
       if (param.default_text == "input") continue;  // a size taken from the maps
+      if (param.default_text.empty()) continue;     // decided by other settings
       EXPECT_NO_THROW(recipe->set(param.name, param.default_text))
           << bake.name << "." << param.name;
     }

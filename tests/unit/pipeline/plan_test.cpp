@@ -131,7 +131,7 @@ TEST(Plan, RefusesFormatsAndTypesItCannotWrite) {
   EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: lut, out: a.exrr }]\n"),
               HasSubstr("unknown file extension '.exrr' (did you mean '.exr'?)"));
   EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: lut, out: a.png, type: half }]\n"),
-              HasSubstr("png does not hold half, expected uint8 or uint16"));
+              HasSubstr("png does not hold half, expected uint8 or rgbd8 or uint16"));
   EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: lut, out: folder }]\n"),
               HasSubstr("expected a file name with an extension"));
   EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: lut, out: a.jpg }]\n"),
