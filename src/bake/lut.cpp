@@ -355,7 +355,8 @@ std::vector<NamedText> list_lut_presets() {
     NamedText item{preset.name, preset.summary, {{"type", preset.pixel_type}}};
     for (const LutPreset::Table& table : preset.tables) {
       std::vector<std::string> settings;
-      for (const auto& [key, text] : table.settings) settings.push_back(key + "=" + text);
+      for (const auto& [key, text] : table.settings)
+        settings.push_back(fmt::format("{}={}", key, text));
       item.facts.emplace_back(table.table, fmt::format("{}", fmt::join(settings, " ")));
     }
     for (const std::string& caution : preset.cautions) item.facts.emplace_back("note", caution);

@@ -135,7 +135,7 @@ std::vector<Item> list_lobes(const Globals&) {
   std::vector<Item> items;
   for (const std::string& distribution : model_names("distribution")) {
     for (const std::string& masking : fitting_maskings(distribution)) {
-      items.push_back({distribution + "," + masking,
+      items.push_back({fmt::format("{},{}", distribution, masking),
                        "",
                        {{"distribution", distribution}, {"masking", masking}}});
     }
