@@ -150,6 +150,7 @@ int channel_rank(std::string_view name) {
 std::vector<std::string> usual_channel_names(int count) {
   if (count == 1) return {"Y"};
   std::vector<std::string> names;
+  names.reserve(static_cast<size_t>(count));
   for (int c = 0; c < count; ++c) {
     names.push_back(count <= 4 ? std::string(1, "RGBA"[c]) : fmt::format("channel{}", c));
   }
