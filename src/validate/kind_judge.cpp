@@ -177,6 +177,9 @@ Verdict verify_kinds(const std::vector<Sheet>& sheets) {
     verdict.runner_up = describe(other, next, coarse, errors_of(coarse));
     verdict.ratio = next.score / std::max(best.score, 1e-12);
   }
+  if (verdict.runner_up && verdict.ratio < 1.2) {
+    verdict.statements.push_back("cannot be told apart from: " + verdict.runner_up->convention);
+  }
   if (is_of_cycles(best)) verdict.presets.push_back("cycles");
   if (std::string text = not_finite_statement(sheet); !text.empty()) {
     verdict.statements.push_back(std::move(text));

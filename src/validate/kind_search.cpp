@@ -10,6 +10,7 @@ namespace {
 
 constexpr int coarse_plane = 7, coarse_solid = 4;
 constexpr double greatest_share = 0.1;
+constexpr double exact_score = 1e-6;  // below it readings are alike, and the first one counts
 
 // The entries of a sheet that are looked at, [channel][z][y][x].
 struct Sample {
@@ -49,10 +50,10 @@ Coordinates coordinates_of(const Sample& sample, const KindReading& reading) {
   return coordinates;
 }
 
-// Where entries of the sample stand among filled ones, and whether the last quantity is at its end.
+// Where entries of the sample stand among filled ones, and whether a kind's limit may stand there.
 struct Seat {
   size_t at = 0;
-  bool first = false;
+  bool at_limit = false;
 };
 
 std::vector<Seat> seats_of(const Sample& sample, const KindReading& reading) {
@@ -65,6 +66,12 @@ std::vector<Seat> seats_of(const Sample& sample, const KindReading& reading) {
     steps[a] = step;
     step *= sample.places[a].size();
   }
+  std::vector<bool> ends;  // whether an axis ends in a limit
+  for (const int q : reading.order) {
+    ends.push_back(
+        reading.alignment == Alignment::Corner &&
+        (q + 1 == static_cast<int>(axes) || reading.mappings[q]->quantity == Quantity::Roughness));
+  }
   std::vector<Seat> seats(step);
   for (size_t i = 0; i < step; ++i) {
     size_t rest = i;
@@ -72,9 +79,7 @@ std::vector<Seat> seats_of(const Sample& sample, const KindReading& reading) {
       const size_t n = sample.places[a].size(), k = rest % n;
       const size_t from_least = reading.reversed[a] ? n - 1 - k : k;
       seats[i].at += from_least * steps[a];
-      if (reading.order[a] == static_cast<int>(axes) - 1) {
-        seats[i].first = from_least == 0 && reading.alignment == Alignment::Corner;
-      }
+      if (from_least == 0 && ends[a]) seats[i].at_limit = true;
       rest /= n;
     }
   }
@@ -87,7 +92,7 @@ std::vector<double> seated(const std::vector<double>& filled, const std::vector<
   std::vector<double> values(seats.size());
   for (size_t i = 0; i < seats.size(); ++i) {
     values[i] = filled[seats[i].at];
-    if (!limit || !seats[i].first) continue;
+    if (!limit || !seats[i].at_limit) continue;
     if (std::abs(*limit - stored[i]) < std::abs(values[i] - stored[i])) values[i] = *limit;
   }
   return values;
@@ -205,7 +210,7 @@ std::vector<KindCandidate> search_kinds(const std::vector<Sheet>& sheets) {
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const KindCandidate& a, const KindCandidate& b) {
-    return a.score < b.score;
+    return std::max(a.score, exact_score) < std::max(b.score, exact_score);
   });
   if (all.size() > 8) all.resize(8);
   return all;

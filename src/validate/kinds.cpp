@@ -69,26 +69,43 @@ Kind glass() {
   return kind;
 }
 
+// The mappings of a quantity that are tried, that of the table first.
+std::vector<const AxisMapping*> mappings_like(const std::string& own) {
+  const AxisMapping& first = find_axis_mapping(own);
+  std::vector<const AxisMapping*> found{&first};
+  const auto add = [&](const std::vector<std::string>& others) {
+    for (const std::string& name : others) {
+      if (name != first.name) found.push_back(&find_axis_mapping(name));
+    }
+  };
+  if (first.quantity == Quantity::Mu) add({"mu", "sqrt-mu"});
+  if (first.quantity == Quantity::Roughness) add({"roughness", "alpha"});
+  if (first.quantity == Quantity::F0) add({"fourth-root-f0", "sqrt-f0", "f0"});
+  return found;
+}
+
+// A table of three axes on the list of tables.
+Kind solid(const TableFacts& table) {
+  Kind kind{table.name, {}, contents(table.channels)};
+  for (const std::string& axis : table.axes) kind.axes.push_back(mappings_like(axis));
+  return kind;
+}
+
 // Their names are those of the tables that kiln bakes.
 std::vector<Kind> make_kinds() {
-  const auto mu = mappings({"mu", "sqrt-mu"});
-  const auto roughness = mappings({"roughness", "alpha"});
-  return {
+  std::vector<Kind> kinds{
       {"diffuse",
        {mappings({"mu", "sqrt-mu", "cbrt-mu", "sqrt-one-minus-mu", "one-minus-sqrt-one-minus-mu"}),
-        roughness},
+        mappings({"roughness", "alpha"})},
        diffuse_contents()},
       {"skin",
        {mappings({"cosine"}), mappings({"curvature"})},
-       contents({"skin-red", "skin-green", "skin-blue"})},
-      glass(),
-      {"ior",
-       {mu, roughness, mappings({"fourth-root-f0", "sqrt-f0", "f0"})},
-       contents({"dielectric"})},
-      {"anisotropic",
-       {mu, roughness, mappings({"anisotropy"})},
-       contents({"azimuth-mean", "azimuth-cos2", "azimuth-cos4"})},
-  };
+       contents({"skin-red", "skin-green", "skin-blue"})}};
+  for (const TableFacts& table : all_tables()) {
+    if (table.axes.size() == 3 && table.name != "glass") kinds.push_back(solid(table));
+  }
+  kinds.push_back(glass());  // what it reflects is the table `ior` too, which is named first
+  return kinds;
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ struct Kind {
   std::string table;  ///< its class: "glass"
   std::vector<std::vector<const AxisMapping*>> axes;
   std::vector<Content> contents;
-  /// What some tables hold instead where the last quantity is at its end: glass of index 1.
+  /// What some tables hold where the last quantity or roughness is at its least: glass that does
+  /// not refract, or is smooth, loses nothing.
   std::optional<double> limit = {};
 };
 

@@ -16,8 +16,9 @@
 namespace kiln::validate {
 namespace {
 
-constexpr int entries_tried = 3, entries_compared = 6, entries_measured = 16;
+constexpr int entries_tried = 3, entries_compared = 6, entries_measured = 20;
 constexpr double greatest_share = 0.1;  // of light that goes elsewhere, mean over the table
+constexpr double hopeless = 0.4;        // at one entry
 constexpr double clear_ratio = 1.5;
 constexpr double least_cosine = 8e-4;  // where published tables end: an angle of 1.57
 
@@ -37,9 +38,9 @@ struct Shares {
   double mean = 1;
 };
 
-Shares shares_of(const Sheet& sheet, const Reading& reading, int most) {
+Shares shares_of(const Sheet& sheet, const Reading& reading, Places places) {
   Shares shares;
-  shares.places = spread_places(sheet, reading.axes.transposed, most);
+  shares.places = std::move(places);
   const Values values = values_of(sheet, reading.axes.transposed, shares.places);
   shares.mus = cosines_of(sheet, reading.axes, shares.places);
   shares.alphas = alphas_of(sheet, reading.axes, shares.places);
@@ -62,6 +63,29 @@ Shares shares_of(const Sheet& sheet, const Reading& reading, int most) {
   for (const double share : shares.values) sum += share;
   shares.mean = sum / static_cast<double>(shares.values.size());
   return shares;
+}
+
+// Entries off the borders, where fits are worst and say least.
+std::vector<int> inner_indices(int n, int most) {
+  std::vector<int> indices;
+  indices.reserve(most);
+  const int count = std::min(n, most);
+  for (int k = 0; k < count; ++k) indices.push_back((2 * k + 1) * n / (2 * count));
+  return indices;
+}
+
+Shares inner_shares(const Sheet& sheet, const Reading& reading, int most) {
+  const std::vector<int> x = inner_indices(sheet.size().width, most);
+  const std::vector<int> y = inner_indices(sheet.size().height, most);
+  return reading.axes.transposed ? shares_of(sheet, reading, Places{y, x})
+                                 : shares_of(sheet, reading, Places{x, y});
+}
+
+// Of one entry, a third of the way along x and two thirds along y: nothing is symmetric there.
+Shares share_of_one(const Sheet& sheet, const Reading& reading) {
+  const std::vector<int> x{sheet.size().width / 3}, y{2 * sheet.size().height / 3};
+  return reading.axes.transposed ? shares_of(sheet, reading, Places{y, x})
+                                 : shares_of(sheet, reading, Places{x, y});
 }
 
 TableAxes cosine_axes(CosineAxis map, bool reversed, const Placement& alignment) {
@@ -111,17 +135,26 @@ struct Ranked {
   double mean = 1;
 };
 
-// Best first, after a look at few entries and a closer one at the best of them.
+template <class Measure>
+void keep_best(std::vector<Ranked>& all, size_t most, Measure&& measure) {
+  for (Ranked& one : all) one.mean = measure(one.reading).mean;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.mean < b.mean; });
+  all.resize(std::min(all.size(), most));
+}
+
+// Best first, after closer and closer looks at fewer and fewer.
 std::vector<Ranked> rank(const Sheet& sheet) {
   std::vector<Ranked> all;
-  for (const Reading& reading : all_readings()) {
-    all.push_back({reading, shares_of(sheet, reading, entries_tried).mean});
+  for (const Reading& reading : all_readings()) all.push_back({reading, 1});
+  keep_best(all, 16, [&](const Reading& reading) { return share_of_one(sheet, reading); });
+  if (all[0].mean > hopeless) return all;
+  for (const auto& [most, entries] :
+       {std::pair{6, entries_tried}, std::pair{4, entries_compared}}) {
+    keep_best(all, most,
+              [&](const Reading& reading) { return inner_shares(sheet, reading, entries); });
+    if (all[0].mean > 2 * greatest_share) break;
   }
-  const auto less = [](const Ranked& a, const Ranked& b) { return a.mean < b.mean; };
-  std::stable_sort(all.begin(), all.end(), less);
-  all.resize(6);
-  for (Ranked& one : all) one.mean = shares_of(sheet, one.reading, entries_compared).mean;
-  std::stable_sort(all.begin(), all.end(), less);
   return all;
 }
 
@@ -180,13 +213,13 @@ Verdict judge(const Sheet& sheet) {
   const std::vector<Ranked> ranked = rank(sheet);
   if (ranked[0].mean > 1.5 * greatest_share) return verdict;
   const Reading& best = ranked[0].reading;
-  const Shares shares = shares_of(sheet, best, entries_measured);
+  const Shares shares = inner_shares(sheet, best, entries_measured);
   verdict.best = describe(sheet, best, shares);
   verdict.ratio = ranked[1].mean / std::max(ranked[0].mean, 1e-9);
   verdict.fits = shares.mean < greatest_share && verdict.ratio >= clear_ratio;
   if (!verdict.fits) return verdict;
   verdict.runner_up =
-      describe(sheet, ranked[1].reading, shares_of(sheet, ranked[1].reading, entries_compared));
+      describe(sheet, ranked[1].reading, inner_shares(sheet, ranked[1].reading, entries_compared));
   verdict.errors = share_layers(best, shares);
   verdict.statements.push_back(
       fmt::format("errors are shares of light that the lobes send elsewhere: {:.2g} on average, "

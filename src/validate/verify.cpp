@@ -17,7 +17,7 @@ namespace {
 
 constexpr double hopeless = 0.06;  // a score that no other lobe would mend
 constexpr size_t looked_at = 4;
-constexpr int entries_measured = 512, entries_aligned = 32;
+constexpr int entries_measured = 512, entries_screened = 48, entries_aligned = 32;
 
 // A finer look at the few that are left, for noise hides small shifts from a coarse one.
 void look_closer(const std::vector<Sheet>& sheets, std::vector<Candidate>& candidates) {
@@ -67,11 +67,19 @@ std::vector<ChannelErrors> nearest_of(std::vector<ChannelErrors> errors) {
   return errors;
 }
 
+// All entries are measured of tables that a part of them leaves in the running.
+Comparison measured(const Sheet& sheet, const Candidate& candidate) {
+  constexpr double any_ratio = 1e9;
+  Comparison part = compare(sheet, candidate, entries_screened);
+  if (!acceptable(sheet, errors_of(part), any_ratio)) return part;
+  return compare(sheet, candidate, entries_measured);
+}
+
 void judge(const std::vector<Sheet>& sheets, const std::vector<Candidate>& candidates,
            Verdict& verdict) {
   const Candidate& best = candidates[0];
   const Sheet& sheet = sheets[best.sheet];
-  const Comparison comparison = compare(sheet, best, entries_measured);
+  const Comparison comparison = measured(sheet, best);
   const std::vector<ChannelErrors> errors = errors_of(comparison);
   verdict.best = describe(sheet, best, comparison);
   if (const Candidate* next = runner_up(sheets, candidates, errors)) {
@@ -129,12 +137,27 @@ Verdict verify_arrays(const std::vector<NumberArray>& arrays) {
   return other.fits ? other : verdict;
 }
 
+// What the arrays hold beside the one that was judged.
+std::vector<Match> other_matches(const std::vector<NumberArray>& arrays, const Verdict& verdict) {
+  std::vector<Match> others;
+  bool one_of_them = false;
+  for (const NumberArray& array : arrays) one_of_them |= array.name == verdict.best.array;
+  if (!one_of_them || arrays.size() < 2) return others;
+  for (const NumberArray& array : arrays) {
+    if (array.name == verdict.best.array) continue;
+    Verdict other = verify_arrays({array});
+    if (other.fits) others.push_back(std::move(other.best));
+  }
+  return others;
+}
+
 }  // namespace
 }  // namespace validate
 
 Verdict verify_tables(const std::vector<NumberArray>& arrays, const VerifyOptions& options) {
   Verdict verdict = validate::verify_sheets(validate::joined_sheets(arrays));
   if (!verdict.fits) verdict = validate::verify_arrays(arrays);
+  if (verdict.fits) verdict.others = validate::other_matches(arrays, verdict);
   if (options.max_error > 0) {
     verdict.within = verdict.fits && verdict.best.max_error <= options.max_error;
   }
