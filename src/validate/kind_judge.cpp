@@ -142,17 +142,24 @@ bool fits_all(const KindComparison& comparison, const std::vector<Errors>& error
   return any;
 }
 
-// Cycles: roughness along x, n.v along y, the index along z, on nodes.
+// Of glass: both sides together, what refraction turns back counted or not.
+bool holds_all_of_glass(const Content& content) {
+  return content.words.find("let through") != std::string::npos &&
+         content.words.find("reflected") != std::string::npos;
+}
+
+// Cycles: roughness along x, n.v along y, the index or exponent along z, on nodes.
 bool is_of_cycles(const KindCandidate& candidate) {
   const KindReading& reading = candidate.reading;
   const Kind& kind = all_kinds()[reading.kind];
-  if (kind.table != "glass" || reading.alignment != Alignment::Corner) return false;
+  const bool share = kind.table == "ior-share" || kind.table == "schlick-share";
+  if ((kind.table != "glass" && !share) || reading.alignment != Alignment::Corner) return false;
   if (candidate.fits.size() != 1 || reading.order != std::vector<int>{1, 0, 2}) return false;
   if (std::count(reading.reversed.begin(), reading.reversed.end(), true) > 0) return false;
-  const std::string& holds = kind.contents[candidate.fits[0].content].words;
-  return reading.mappings[1]->name == "roughness" &&
-         (holds.find("reflected and let through") != std::string::npos ||
-          holds.find("turned back") != std::string::npos);
+  for (size_t q = 0; q < reading.mappings.size(); ++q) {
+    if (reading.mappings[q] != kind.axes[q][0]) return false;
+  }
+  return share || holds_all_of_glass(kind.contents[candidate.fits[0].content]);
 }
 
 }  // namespace

@@ -19,6 +19,19 @@ constexpr double hopeless = 0.06;  // a score that no other lobe would mend
 constexpr size_t looked_at = 4;
 constexpr int entries_measured = 512, entries_screened = 48, entries_aligned = 32;
 
+// Whether some channel follows the candidate, if only roughly.
+bool follows(const Sheet& sheet, const Candidate& candidate) {
+  constexpr double rough_rms = 0.05, rough_share = 0.2;
+  const bool transposed = candidate.axes.transposed;
+  const Values values = values_of(sheet, transposed, spread_places(sheet, transposed, 16));
+  for (size_t c = 0; c < values.size(); ++c) {
+    const ChannelFit& fit = candidate.fits[c];
+    if (fit.constant || fit.rms > rough_rms) continue;
+    if (fit.rms * fit.rms <= rough_share * variance(values[c])) return true;
+  }
+  return false;
+}
+
 // A finer look at the few that are left, for noise hides small shifts from a coarse one.
 void look_closer(const std::vector<Sheet>& sheets, std::vector<Candidate>& candidates) {
   const auto better = [](const Candidate& a, const Candidate& b) {
@@ -33,7 +46,8 @@ void look_closer(const std::vector<Sheet>& sheets, std::vector<Candidate>& candi
   std::stable_sort(first, last, better);
   const double close = 1.5 * first->score + 0.003;
   for (auto one = first; one != last; ++one) {
-    if (one->score <= close) *one = settle(sheets[one->sheet], *one, entries_aligned);
+    if (one->score > close || !follows(sheets[one->sheet], *one)) continue;
+    *one = settle(sheets[one->sheet], *one, entries_aligned);
   }
   std::stable_sort(first, last, better);
 }
