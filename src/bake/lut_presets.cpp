@@ -15,6 +15,13 @@ Settings with(Settings settings, const std::string& channels, const std::string&
   return settings;
 }
 
+// Of tables whose own lobe is cloth's: all but the cloth channel are of GGX.
+Settings ggx(Settings settings) {
+  settings.emplace_back("distribution", "ggx");
+  settings.emplace_back("masking", "smith-correlated");
+  return settings;
+}
+
 // The layouts that presets share.
 const Settings centred = {{"axes", "mu,roughness"}, {"align", "center"}, {"origin", "top"}};
 const Settings centred_flipped = {
@@ -50,7 +57,7 @@ std::vector<LutPreset> make_list() {
        "Filament, multiple scattering and cloth in B",
        "half",
        {{"split-sum", with(centred_flipped, "fresnel,total,sheen", "128x128")},
-        {"sheen", with(centred_flipped, "fresnel,total,sheen", "128x128")}},
+        {"sheen", ggx(with(centred_flipped, "fresnel,total,sheen", "128x128"))}},
        {"cmgen writes each row for the roughness of the next one; this one holds each row's own",
         "the cloth lobe reflects more than it receives at grazing angles (values above 1)"}},
       {"three",

@@ -55,6 +55,8 @@ Json to_json(const std::string& file, const Verdict& verdict) {
     json["runner_up"] = to_json(*verdict.runner_up);
     json["ratio"] = verdict.ratio;
   }
+  json["others"] = Json::array();
+  for (const Match& other : verdict.others) json["others"].push_back(to_json(other));
   json["statements"] = verdict.statements;
   json["presets"] = verdict.presets;
   return json;
@@ -97,6 +99,10 @@ void print_verdict(const std::string& file, const Verdict& verdict) {
   }
   if (!verdict.presets.empty()) {
     fmt::print("  presets       {}\n", fmt::join(verdict.presets, ", "));
+  }
+  for (const Match& other : verdict.others) {
+    fmt::print("  also holds    {}: {}; greatest error {:.3g}\n", other.array, other.table_class,
+               other.max_error);
   }
   print_statements(verdict);
 }

@@ -122,7 +122,9 @@ TEST(EveryLutPreset, IsRecognisedFromItsNumbersAlone) {
     SCOPED_TRACE(one.preset + " " + one.table);
     const Verdict verdict = verify_tables({numbers_of(bake(one), one.type)});
     EXPECT_TRUE(verdict.fits) << summary(verdict);
-    EXPECT_EQ(verdict.best.table_class, one.table) << summary(verdict);
+    // Filament's cloth is a channel of a split sum, whichever table it is asked of.
+    const std::string expected = one.preset == "filament-cloth" ? "split-sum" : one.table;
+    EXPECT_EQ(verdict.best.table_class, expected) << summary(verdict);
     EXPECT_THAT(verdict.presets, testing::Contains(one.preset)) << summary(verdict);
   }
 }
