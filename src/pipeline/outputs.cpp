@@ -29,7 +29,8 @@ bool is_image_name(const fs::path& path) {
 void check_type(Product product, std::optional<PixelType> type, const fs::path& path) {
   const WritableFormat& format = writable_format(path);
   if (product == Product::Numbers && format.name == "jpeg") {
-    throw Error(Fault::Usage, "jpg loses numbers; expected exr, png, hdr, tif, dds, ktx2, npy, csv or h");
+    throw Error(Fault::Usage,
+                "jpg loses numbers; expected exr, png, hdr, tif, dds, ktx2, npy, csv or h");
   }
   if (!type || std::count(format.types.begin(), format.types.end(), *type)) return;
   std::vector<std::string_view> held;

@@ -13,12 +13,12 @@ struct NumberArray {
   /// be anything, the bits of halves too.
   enum class Stored { Uint8, Uint16, Half, Float, Double, Rgb10a2, Integer, Decimal };
 
-  std::string name;        ///< of the variable in a text file, else empty
-  std::vector<int> shape;  ///< slowest first: {h, w, c}, {d, h, w, c}; {n} where nothing tells
+  std::string name;            ///< of the variable in a text file, else empty
+  std::vector<int> shape;      ///< slowest first: {h, w, c}, {d, h, w, c}; {n} where nothing tells
   std::vector<double> values;  ///< of images normalised to [0,1]; of texts as written
   Stored stored = Stored::Float;
-  std::vector<std::string> channels;                             ///< names, where known
-  std::vector<std::pair<std::string, std::string>> attributes;   ///< metadata of the file
+  std::vector<std::string> channels;                            ///< names, where known
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
   std::vector<std::string> columns;  ///< coordinates that a long-form CSV named
   std::vector<std::string> notes;
 };

@@ -35,7 +35,8 @@ TEST(EveryTable, FillsItsChannelsAndStatesItsErrors) {
       for (const double value : channel) EXPECT_TRUE(std::isfinite(value)) << facts.name;
     }
     const bool fitted = facts.name == "ltc";
-    EXPECT_LE(lut.entry_error, 4e-6) << facts.name;
+    const bool bent = facts.name == "ior-share";  // dense dielectrics are cut off at their F0
+    EXPECT_LE(lut.entry_error, bent ? 5e-5 : 4e-6) << facts.name;
     EXPECT_EQ(lut.lookup_error > 0, !fitted) << facts.name;
     EXPECT_EQ(lut.fit_error > 0, fitted) << facts.name;
   }
