@@ -44,7 +44,7 @@ Interruption::Interruption() {
 
 Interruption::~Interruption() {
   listener_.request_stop();
-  pthread_kill(listener_.native_handle(), SIGTERM);  // wakes the listener, which then ends
+  pthread_kill(listener_.native_handle(), SIGINT);  // wakes the listener, which then ends
   listener_.join();
   const sigset_t set = stop_signals();
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
