@@ -8,6 +8,7 @@
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
 #include "kiln/parallel/rows.h"
+#include "lane_sum.h"
 #include "lobe_kernels.h"
 #include "smooth_field.h"
 
@@ -36,14 +37,6 @@ const Rule& unit_rule(int points) {
     default:
       return made_once<most_slopes>();
   }
-}
-
-double sum_lanes(Wide values) {
-  double lane[wide_lanes];
-  store_lanes(lane, values);
-  double sum = 0;
-  for (const double value : lane) sum += value;
-  return sum;
 }
 
 // The clamp of the visibility acts only where both directions graze.

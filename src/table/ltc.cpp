@@ -11,6 +11,7 @@
 #include "kiln/integrate/gauss_legendre.h"
 #include "kiln/parallel/rows.h"
 #include "kiln/table/view_rule.h"
+#include "lane_sum.h"
 
 namespace kiln {
 namespace {
@@ -114,13 +115,6 @@ Density<Wide> density_of(const Entries& m, Wide x, Wide y, Wide z) {
       value,
       {fma(by_qx, x, by_determinant * Wide(m[3])), fma(by_qx, z, by_determinant * Wide(-m[2])),
        fma(by_qz, x, by_determinant * Wide(-m[1])), fma(by_qz, z, by_determinant * Wide(m[0]))}};
-}
-
-double sum_lanes(Wide values) {
-  double lane[lanes], sum = 0;
-  store_lanes(lane, values);
-  for (const double value : lane) sum += value;
-  return sum;
 }
 
 // INT |D - f cos / E|^3, its gradient and the matrix of Gauss and Newton's method.
