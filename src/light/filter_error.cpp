@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiln/light/filter_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kiln/math/hash.h"
+
+namespace kiln {
+namespace {
+
+constexpr std::uint32_t spread_texels = 24;
+
+struct TexelAt {
+  int image, x, y;
+};
+
+// Texels spread over all images by a hash, the same for every run.
+std::vector<TexelAt> spread_over(const FilteredLevel& level) {
+  const Size size = level.images.front().size;
+  const auto pick = [](std::uint32_t number, int below) {
+    return static_cast<int>(mix_bits(number) % static_cast<std::uint32_t>(below));
+  };
+  std::vector<TexelAt> texels;
+  for (std::uint32_t i = 0; i < spread_texels; ++i) {
+    texels.push_back({static_cast<int>(i % level.images.size()), pick(2 * i, size.width),
+                      pick(2 * i + 1, size.height)});
+  }
+  return texels;
+}
+
+TexelAt brightest_of(const FilteredLevel& level) {
+  TexelAt best{0, 0, 0};
+  float most = -INFINITY;
+  for (size_t image = 0; image < level.images.size(); ++image) {
+    const Plane& green = level.images[image].layers[1].plane;
+    for (int y = 0; y < green.height(); ++y) {
+      for (int x = 0; x < green.width(); ++x) {
+        if (green.at(x, y) <= most) continue;
+        most = green.at(x, y);
+        best = {static_cast<int>(image), x, y};
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<TexelAt> choose_texels(const FilteredLevel& level) {
+  std::vector<TexelAt> texels = spread_over(level);
+  const TexelAt best = brightest_of(level);
+  const Size size = level.images.front().size;
+  for (int y = std::max(0, best.y - 1); y <= std::min(size.height - 1, best.y + 1); ++y) {
+    for (int x = std::max(0, best.x - 1); x <= std::min(size.width - 1, best.x + 1); ++x) {
+      texels.push_back({best.image, x, y});
+    }
+  }
+  return texels;
+}
+
+Vec3<double> direction_at(const FilteredLevel& level, const TexelAt& at) {
+  const Size size = level.images.front().size;
+  return direction_of(level.layout, at.image,
+                      {(at.x + 0.5) / size.width, (at.y + 0.5) / size.height});
+}
+
+}  // namespace
+
+std::vector<FilterError> filter_errors(const Prefilter& prefilter,
+                                       const std::vector<FilteredLevel>& levels,
+                                       double mean_radiance) {
+  std::vector<LobeProbe> probes;
+  std::vector<std::vector<TexelAt>> texels;
+  for (const FilteredLevel& level : levels) {
+    texels.push_back(choose_texels(level));
+    probes.push_back({level.lobe, {}});
+    for (const TexelAt& at : texels.back()) {
+      probes.back().directions.push_back(direction_at(level, at));
+    }
+  }
+  const auto truth = prefilter.brute_force(probes);
+  const double scale = 1 / std::max(std::abs(mean_radiance), 1e-30);
+  std::vector<FilterError> errors(levels.size());
+  for (size_t l = 0; l < levels.size(); ++l) {
+    double squares = 0;
+    for (size_t i = 0; i < texels[l].size(); ++i) {
+      const TexelAt& at = texels[l][i];
+      const auto& layers = levels[l].images[static_cast<size_t>(at.image)].layers;
+      const Vec3<double> found{layers[0].plane.at(at.x, at.y), layers[1].plane.at(at.x, at.y),
+                               layers[2].plane.at(at.x, at.y)};
+      const Vec3<double> apart = (found - truth[l][i]) * scale;
+      squares += dot(apart, apart) / 3;
+      errors[l].max =
+          std::max({errors[l].max, std::abs(apart.x), std::abs(apart.y), std::abs(apart.z)});
+    }
+    errors[l].rms = std::sqrt(squares / static_cast<double>(texels[l].size()));
+  }
+  return errors;
+}
+
+}  // namespace kiln
