@@ -9,7 +9,7 @@
 namespace kiln {
 namespace {
 
-constexpr std::uint32_t spread_texels = 24;
+constexpr std::uint32_t spread_texels = 10;
 
 struct TexelAt {
   int image, x, y;
@@ -49,18 +49,16 @@ std::vector<TexelAt> choose_texels(const FilteredLevel& level) {
   std::vector<TexelAt> texels = spread_over(level);
   const TexelAt best = brightest_of(level);
   const Size size = level.images.front().size;
-  for (int y = std::max(0, best.y - 1); y <= std::min(size.height - 1, best.y + 1); ++y) {
-    for (int x = std::max(0, best.x - 1); x <= std::min(size.width - 1, best.x + 1); ++x) {
-      texels.push_back({best.image, x, y});
-    }
+  for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const TexelAt at{best.image, best.x + dx, best.y + dy};
+    const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
+    if (inside) texels.push_back(at);
   }
   return texels;
 }
 
 Vec3<double> direction_at(const FilteredLevel& level, const TexelAt& at) {
-  const Size size = level.images.front().size;
-  return direction_of(level.layout, at.image,
-                      {(at.x + 0.5) / size.width, (at.y + 0.5) / size.height});
+  return direction_of(level.grid.layout, at.image, level.grid.point(at.x, at.y));
 }
 
 }  // namespace

@@ -127,19 +127,19 @@ Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
 Prefilter::~Prefilter() = default;
 Prefilter::Prefilter(Prefilter&&) noexcept = default;
 
-std::vector<Layers> Prefilter::filter(const Lobe& lobe, SphereLayout layout, int size) const {
+std::vector<Layers> Prefilter::filter(const Lobe& lobe, const SphereGrid& grid) const {
   const ZonalKernel& kernel = expanded_->kernel_of(lobe);
   const SphereField field = convolve(expanded_->expansion, expanded_->columns, kernel);
   const auto scale = static_cast<float>(1 / kernel.integral);
-  const Size extent = image_size(layout, size);
+  const Size extent = grid.image_size();
   std::vector<Layers> images;
-  for (int i = 0; i < image_count(layout); ++i) {
+  for (int i = 0; i < grid.images(); ++i) {
     images.push_back(make_layers(extent, {"R", "G", "B"}));
   }
-  for_rows(image_count(layout) * extent.height, [&](int row) {
+  for_rows(grid.images() * extent.height, [&](int row) {
     const int image = row / extent.height, y = row % extent.height;
     std::vector<Vec3<double>> directions;
-    texel_directions(layout, size, image, y, directions);
+    row_directions(grid, image, y, directions);
     std::vector<MassSums> smooth(directions.size()), hot(directions.size(), MassSums{});
     field.evaluate(directions, smooth);
     add_masses(lobe, expanded_->hot, directions, hot);

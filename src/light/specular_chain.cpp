@@ -58,12 +58,12 @@ SpecularChain::SpecularChain(const Layers& latlong, const ChainOptions& options)
     if (level > 0) lobes.push_back({.alpha = square(roughness(level))});
   }
   texels_.resize(static_cast<size_t>(numbers));
-  store_level(0, average_over_texels(latlong, SphereLayout::Cube, size(0)));
+  store_level(0, average_over_texels(latlong, {.size = size(0)}));
   if (lobes.empty()) return;
   const Prefilter prefilter(latlong, lobes);
   for (int level = 1; level < levels(); ++level) {
     const Lobe& lobe = lobes[static_cast<size_t>(level) - 1];
-    store_level(level, prefilter.filter(lobe, SphereLayout::Cube, size(level)));
+    store_level(level, prefilter.filter(lobe, {.size = size(level)}));
   }
 }
 

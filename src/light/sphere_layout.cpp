@@ -3,7 +3,7 @@
 
 namespace kiln {
 
-Size image_size(SphereLayout layout, int size) {
+Size SphereGrid::image_size() const {
   switch (layout) {
     case SphereLayout::Cube:
       return {size, size};
@@ -15,7 +15,14 @@ Size image_size(SphereLayout layout, int size) {
   return {};
 }
 
-int image_count(SphereLayout layout) { return layout == SphereLayout::Cube ? 6 : 1; }
+Vec2<double> SphereGrid::point(double x, double y) const {
+  const Size extent = image_size();
+  // A single node stands for the whole.
+  if (!at_nodes || extent.width < 2 || extent.height < 2) {
+    return {(x + 0.5) / extent.width, (y + 0.5) / extent.height};
+  }
+  return {x / (extent.width - 1), y / (extent.height - 1)};
+}
 
 Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv) {
   switch (layout) {
@@ -29,13 +36,11 @@ Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv) {
   return {};
 }
 
-void texel_directions(SphereLayout layout, int size, int image, int y,
-                      std::vector<Vec3<double>>& directions) {
-  const Size extent = image_size(layout, size);
-  directions.resize(static_cast<size_t>(extent.width));
-  for (int x = 0; x < extent.width; ++x) {
-    directions[static_cast<size_t>(x)] =
-        direction_of(layout, image, {(x + 0.5) / extent.width, (y + 0.5) / extent.height});
+void row_directions(const SphereGrid& grid, int image, int y,
+                    std::vector<Vec3<double>>& directions) {
+  directions.clear();
+  for (int x = 0; x < grid.image_size().width; ++x) {
+    directions.push_back(direction_of(grid.layout, image, grid.point(x, y)));
   }
 }
 

@@ -173,13 +173,17 @@ WideFloat count_up() {
   return load_lanes<WideFloat>(values);
 }
 
-// Neither is normalised, and a point's solid angle goes as one over its length cubed.
-Vec3<WideFloat> point_of(SphereLayout layout, int image, WideFloat u, WideFloat v) {
-  if (layout == SphereLayout::Octahedral) return octahedral_point(Vec2<WideFloat>{u, v});
-  const auto face = static_cast<CubeFace>(image);
+/// A point of an image: its direction, not normalised, and what solid angle goes as there.
+struct Point {
+  Vec3<WideFloat> direction;
+  WideFloat weight;
+};
+
+Vec3<WideFloat> point_of_face(CubeFace face, const Vec2<WideFloat>& uv) {
   const auto part = [&](double middle, double right, double down) {
-    return fma(u, WideFloat(static_cast<float>(right)),
-               fma(v, WideFloat(static_cast<float>(down)), WideFloat(static_cast<float>(middle))));
+    return fma(
+        uv.x, WideFloat(static_cast<float>(right)),
+        fma(uv.y, WideFloat(static_cast<float>(down)), WideFloat(static_cast<float>(middle))));
   };
   const Vec3<double> corner = cube_to_direction(face, {0, 0});
   const Vec3<double> right = cube_to_direction(face, {1, 0}) - corner;
@@ -188,39 +192,55 @@ Vec3<WideFloat> point_of(SphereLayout layout, int image, WideFloat u, WideFloat 
           part(corner.z, right.z, down.z)};
 }
 
+Point point_of_latlong(const Vec2<WideFloat>& uv) {
+  const auto azimuth = sine_cosine_of_turns(uv.x - WideFloat(0.5f));
+  const auto polar = sine_cosine_of_turns(WideFloat(0.5f) * uv.y);
+  return {{-azimuth.sine * polar.sine, polar.cosine, azimuth.cosine * polar.sine},
+          abs(polar.sine) + WideFloat(1e-6f)};
+}
+
+// On plane faces solid angle goes as one over the length cubed.
+Point point_of(SphereLayout layout, int image, const Vec2<WideFloat>& uv) {
+  if (layout == SphereLayout::LatLong) return point_of_latlong(uv);
+  const Vec3<WideFloat> d = layout == SphereLayout::Octahedral
+                                ? octahedral_point(uv)
+                                : point_of_face(static_cast<CubeFace>(image), uv);
+  const WideFloat inverse = WideFloat(1.0f) / length(d);
+  return {d * inverse, inverse * inverse * inverse};
+}
+
 Vec2<WideFloat> in_texels(Size size, const Vec2<WideFloat>& uv) {
   return {fma(uv.x, WideFloat(static_cast<float>(size.width)), WideFloat(0.5f)),
           fma(uv.y, WideFloat(static_cast<float>(size.height)), WideFloat(0.5f))};
 }
 
 // As many texels of row y as a wide number has lanes, from texel x on.
-Vec3<WideFloat> average_at(const Points& points, SphereLayout layout, Size size, int image, int x,
-                           int y) {
-  const auto n = static_cast<float>(points.count);
-  const WideFloat step(1 / static_cast<float>(size.width));
+Vec3<WideFloat> average_at(const Points& points, const SphereGrid& grid, int image, int x, int y) {
+  const double n = points.count;
+  const Vec2<double> origin = grid.point(0, 0), next = grid.point(1, 1);
+  const Vec2<double> step{next.x - origin.x, next.y - origin.y};
   const WideFloat first = count_up() + WideFloat(static_cast<float>(x));
   Vec3<WideFloat> sum{WideFloat(0.0f), WideFloat(0.0f), WideFloat(0.0f)};
   WideFloat weights(0.0f);
   for (int j = 0; j < points.count; ++j) {
-    const WideFloat v((static_cast<float>(y) + (static_cast<float>(j) + 0.5f) / n) /
-                      static_cast<float>(size.height));
+    const double v = origin.y + step.y * (y - 0.5 + (j + 0.5) / n);
     for (int i = 0; i < points.count; ++i) {
-      const WideFloat u = (first + WideFloat((static_cast<float>(i) + 0.5f) / n)) * step;
-      const Vec3<WideFloat> d = point_of(layout, image, u, v);
-      const WideFloat inverse = WideFloat(1.0f) / length(d);
-      const WideFloat weight = inverse * inverse * inverse;
-      sum +=
-          points.texels.bilinear(in_texels(points.texels.size(), latlong_of(d * inverse))) * weight;
-      weights += weight;
+      const double from = origin.x + step.x * (-0.5 + (i + 0.5) / n);
+      const WideFloat u =
+          fma(first, WideFloat(static_cast<float>(step.x)), WideFloat(static_cast<float>(from)));
+      const Point point = point_of(grid.layout, image, {u, WideFloat(static_cast<float>(v))});
+      sum += points.texels.bilinear(in_texels(points.texels.size(), latlong_of(point.direction))) *
+             point.weight;
+      weights += point.weight;
     }
   }
   return sum * (WideFloat(1.0f) / weights);
 }
 
-void average_rows(const Points& points, SphereLayout layout, int image, Layers& to) {
+void average_rows(const Points& points, const SphereGrid& grid, int image, Layers& to) {
   for_rows(to.size.height, [&](int y) {
     for (int x = 0; x < to.size.width; x += lanes) {  // rows are padded to whole wide numbers
-      const Vec3<WideFloat> value = average_at(points, layout, to.size, image, x, y);
+      const Vec3<WideFloat> value = average_at(points, grid, image, x, y);
       store_lanes(to.layers[0].plane.row(y) + x, value.x);
       store_lanes(to.layers[1].plane.row(y) + x, value.y);
       store_lanes(to.layers[2].plane.row(y) + x, value.z);
@@ -228,49 +248,54 @@ void average_rows(const Points& points, SphereLayout layout, int image, Layers& 
   });
 }
 
+// Rows of the source to the widest texel of a grid.
+double source_texels_of(const SphereGrid& grid, Size source) {
+  const int rows = grid.image_size().height;
+  double widest_rad = pi / rows;
+  if (grid.layout == SphereLayout::Cube) widest_rad = 2.0 / rows;
+  if (grid.layout == SphereLayout::Octahedral) widest_rad = 2 * std::sqrt(3.0) / rows;
+  return widest_rad * source.height / pi;
+}
+
+bool is_side(CubeFace face) { return face != CubeFace::py && face != CubeFace::ny; }
+
 // Texels that are finer than the source's would show these as boxes: then all faces are looked up
 // at points, else only those where meridians are no columns.
-void average_images(const Layers& latlong, SphereLayout layout, double source_texels,
-                    std::vector<Layers>& images) {
+void average_images(const Layers& latlong, const SphereGrid& grid, std::vector<Layers>& images) {
   const ColorPlanes source = color_planes(latlong);
+  const double source_texels = source_texels_of(grid, latlong.size);
   const double mean_share = 1.0 / static_cast<double>(area(latlong.size));
   PowerLimit limit = share_of_power(source, std::max(hot_share, hot_times_mean * mean_share));
   limit.least_solid_angle = 4 * pi * mean_share / 8;
+  if (grid.at_nodes) limit.most = {INFINITY, INFINITY, INFINITY};
   const std::vector<HotTexel> hot = hot_texels(source, limit);
   const Points points = make_points(latlong, limit, hot, source_texels);
-  const bool sides_apart = layout == SphereLayout::Cube && source_texels >= 1;
+  const bool sides_apart =
+      grid.layout == SphereLayout::Cube && !grid.at_nodes && source_texels >= 1;
   if (sides_apart) average_over_sides(source, limit, images);
-  Spill spill(layout, images);
+  Spill spill(grid.layout, images);
   for (const HotTexel& texel : hot) spill.deal(latlong.size, texel, limit);
   for (size_t i = 0; i < images.size(); ++i) {
-    const auto face = static_cast<CubeFace>(i);
-    if (!sides_apart || face == CubeFace::py || face == CubeFace::ny) {
-      average_rows(points, layout, static_cast<int>(i), images[i]);
+    const int image = static_cast<int>(i);
+    if (!sides_apart || !is_side(static_cast<CubeFace>(i))) {
+      average_rows(points, grid, image, images[i]);
     }
-    spill.add_to(static_cast<int>(i), images[i]);
+    spill.add_to(image, images[i]);
   }
-}
-
-// Rows of the source to the widest texel of a layout.
-double source_texels_of(SphereLayout layout, Size source, Size image) {
-  const double widest_rad =
-      layout == SphereLayout::Octahedral ? 2 * std::sqrt(3.0) / image.height : 2.0 / image.height;
-  return widest_rad * source.height / pi;
 }
 
 }  // namespace
 
-std::vector<Layers> average_over_texels(const Layers& latlong, SphereLayout layout, int size) {
-  const Size extent = image_size(layout, size);
+std::vector<Layers> average_over_texels(const Layers& latlong, const SphereGrid& grid) {
   std::vector<Layers> images;
-  for (int i = 0; i < image_count(layout); ++i) {
-    images.push_back(make_layers(extent, {"R", "G", "B"}));
+  for (int i = 0; i < grid.images(); ++i) {
+    images.push_back(make_layers(grid.image_size(), {"R", "G", "B"}));
   }
-  if (layout == SphereLayout::LatLong) {
+  if (grid.layout == SphereLayout::LatLong && !grid.at_nodes) {
     average_over_latlong(color_planes(latlong), images.front());
-    return images;
+  } else {
+    average_images(latlong, grid, images);
   }
-  average_images(latlong, layout, source_texels_of(layout, latlong.size, extent), images);
   return images;
 }
 

@@ -15,13 +15,12 @@ struct FilterError {
 /// A filtered level as Prefilter::filter made it.
 struct FilteredLevel {
   Lobe lobe;
-  SphereLayout layout;
-  int size;
+  SphereGrid grid;
   std::vector<Layers> images;
 };
 
-/// The error of each level by brute force over every texel of the source, at 24 texels spread over
-/// the level and at the brightest and its eight neighbours.
+/// The error of each level by brute force over every texel of the source, at ten texels spread over
+/// the level, the brightest and those beside it.
 /// @param mean_radiance  of the source, as luminance
 std::vector<FilterError> filter_errors(const Prefilter& prefilter,
                                        const std::vector<FilteredLevel>& levels,

@@ -53,8 +53,8 @@ class Prefilter {
   ~Prefilter();
   Prefilter(Prefilter&&) noexcept;
 
-  /// The filtered environment at the texel centres of a layout: one image or six faces.
-  std::vector<Layers> filter(const Lobe& lobe, SphereLayout layout, int size) const;
+  /// The filtered environment at the samples of a grid: one image or six faces.
+  std::vector<Layers> filter(const Lobe& lobe, const SphereGrid& grid) const;
 
   /// What filter() approximates, texel by texel of the source: R, G, B for each direction of each
   /// probe.
@@ -66,8 +66,10 @@ class Prefilter {
   std::unique_ptr<Expanded> expanded_;
 };
 
-/// The environment averaged over the area of each texel of a layout: one image or six faces.
+/// The environment averaged over the area of each texel of a grid (at nodes, over what is nearest):
+/// one image or six faces. A constant stays that constant, and the mean over the sphere its mean to
+/// 1e-4.
 /// @param latlong  planes R G B (or one plane, grey), values at texel centres, finite
-std::vector<Layers> average_over_texels(const Layers& latlong, SphereLayout layout, int size);
+std::vector<Layers> average_over_texels(const Layers& latlong, const SphereGrid& grid);
 
 }  // namespace kiln

@@ -18,17 +18,24 @@ enum class SphereLayout {
 inline constexpr std::array<std::string_view, 3> sphere_layout_names = {"cube", "latlong",
                                                                         "octahedral"};
 
-/// Size of an image, or of one face.
-Size image_size(SphereLayout layout, int size);
+/// Where the sphere is sampled.
+struct SphereGrid {
+  SphereLayout layout = SphereLayout::Cube;
+  int size = 256;         ///< N
+  bool at_nodes = false;  ///< the outermost samples lie on the borders, else all at texel centres
 
-/// 6 of a cube, else 1.
-int image_count(SphereLayout layout);
+  /// 6 of a cube, else 1.
+  int images() const { return layout == SphereLayout::Cube ? 6 : 1; }
+  Size image_size() const;
+  /// Where sample (x, y) of an image lies, in [0,1]^2; fractions between samples too.
+  Vec2<double> point(double x, double y) const;
+};
 
 /// Unit direction through the point (u, v) in [0,1]^2 of an image, v down.
 Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv);
 
-/// Unit directions of the texel centres in row y of an image, or of a face.
-void texel_directions(SphereLayout layout, int size, int image, int y,
-                      std::vector<Vec3<double>>& directions);
+/// Unit directions of the samples in row y of an image, or of a face.
+void row_directions(const SphereGrid& grid, int image, int y,
+                    std::vector<Vec3<double>>& directions);
 
 }  // namespace kiln

@@ -51,8 +51,8 @@ TEST(Prefilter, FirstMakesACoarseSourceFinerForASharpLobe) {
   const auto a = coarse.brute_force({{sharp, directions}}),
              b = fine.brute_force({{sharp, directions}});
   for (size_t i = 0; i < 2; ++i) EXPECT_NEAR(a[0][i].x, b[0][i].x, 5e-3 * b[0][i].x);
-  const FilteredLevel level{sharp, SphereLayout::Cube, 64,
-                            coarse.filter(sharp, SphereLayout::Cube, 64)};
+  const FilteredLevel level{
+      sharp, {SphereLayout::Cube, 64}, coarse.filter(sharp, {SphereLayout::Cube, 64})};
   EXPECT_LT(filter_errors(coarse, {level}, mean_radiance(image).y)[0].rms, 1e-4);
 }
 
@@ -63,8 +63,8 @@ TEST(Prefilter, FiltersWithEveryListedDistribution) {
     for (const double alpha : {0.1, 0.6}) {
       const Lobe lobe{name, alpha};
       const Prefilter prefilter(image, {lobe});
-      const FilteredLevel level{lobe, SphereLayout::Cube, 32,
-                                prefilter.filter(lobe, SphereLayout::Cube, 32)};
+      const FilteredLevel level{
+          lobe, {SphereLayout::Cube, 32}, prefilter.filter(lobe, {SphereLayout::Cube, 32})};
       const FilterError error = filter_errors(prefilter, {level}, mean)[0];
       EXPECT_LT(error.rms, 1e-4) << name << " " << alpha;
       EXPECT_LT(error.max, 1e-3) << name << " " << alpha;
@@ -79,8 +79,11 @@ TEST(Prefilter, IsTheSameFunctionInEveryLayout) {
   const Prefilter prefilter(image, {lobe});
   for (const SphereLayout layout :
        {SphereLayout::Cube, SphereLayout::LatLong, SphereLayout::Octahedral}) {
-    const FilteredLevel level{lobe, layout, 16, prefilter.filter(lobe, layout, 16)};
-    EXPECT_LT(filter_errors(prefilter, {level}, mean_radiance(image).y)[0].max, 1e-4);
+    for (const bool at_nodes : {false, true}) {
+      const SphereGrid grid{layout, 16, at_nodes};
+      const FilteredLevel level{lobe, grid, prefilter.filter(lobe, grid)};
+      EXPECT_LT(filter_errors(prefilter, {level}, mean_radiance(image).y)[0].max, 1e-4);
+    }
   }
 }
 
@@ -90,7 +93,7 @@ TEST(Prefilter, KeepsTheMeanOverTheSphereOfWideLobes) {
   const double mean = mean_radiance(image).y;
   for (const double alpha : {0.09, 0.25, 1.0}) {
     const Lobe lobe{.alpha = alpha};
-    const auto latlong = Prefilter(image, {lobe}).filter(lobe, SphereLayout::LatLong, 64);
+    const auto latlong = Prefilter(image, {lobe}).filter(lobe, {SphereLayout::LatLong, 64});
     EXPECT_NEAR(mean_radiance(latlong[0]).y, mean, 1e-4 * mean) << alpha;
   }
 }
@@ -98,7 +101,7 @@ TEST(Prefilter, KeepsTheMeanOverTheSphereOfWideLobes) {
 TEST(Prefilter, OfTheWidestLobeIsIrradianceOverPi) {
   const Layers image = test::sunny_environment({256, 128}, 100);
   const Lobe cosine{.alpha = 1};
-  const auto faces = Prefilter(image, {cosine}).filter(cosine, SphereLayout::Cube, 8);
+  const auto faces = Prefilter(image, {cosine}).filter(cosine, {SphereLayout::Cube, 8});
   for (int face = 0; face < 6; ++face) {
     const Vec3<double> n =
         normalize(cube_to_direction(static_cast<CubeFace>(face), {3.5 / 8, 5.5 / 8}));
