@@ -5,7 +5,7 @@
 
 namespace kiln::io {
 
-std::string encode_dds(const Contents& contents, PixelType type, const std::string& texels) {
+std::string dds_header(const Contents& contents, PixelType type, size_t texel_bytes) {
   const bool volume = contents.depth > 1;
   const auto width = static_cast<uint32_t>(contents.slice.width);
   const auto height = static_cast<uint32_t>(contents.slice.height);
@@ -18,7 +18,7 @@ std::string encode_dds(const Contents& contents, PixelType type, const std::stri
   constexpr uint32_t by_four_cc = 4;
   std::string bytes = "DDS ";
   append_words(bytes, {124, volume ? flags | depth_flag : flags, height, width,
-                       static_cast<uint32_t>(texels.size() / rows), volume ? depth : 0, 1});
+                       static_cast<uint32_t>(texel_bytes / rows), volume ? depth : 0, 1});
   append_words(bytes, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   append_words(bytes, {32, by_four_cc});
   bytes += "DX10";
@@ -27,7 +27,11 @@ std::string encode_dds(const Contents& contents, PixelType type, const std::stri
   constexpr uint32_t texture_2d = 3, texture_3d = 4;
   append_words(bytes,
                {dxgi_number(type, contents.channels), volume ? texture_3d : texture_2d, 0, 1, 0});
-  return bytes += texels;
+  return bytes;
+}
+
+std::string encode_dds(const Contents& contents, PixelType type, const std::string& texels) {
+  return dds_header(contents, type, texels.size()) += texels;
 }
 
 }  // namespace kiln::io

@@ -89,13 +89,13 @@ uint32_t sample_type_bytes(PixelType type) { return static_cast<uint32_t>(sample
 
 }  // namespace
 
-std::string encode_ktx2(const Contents& contents, PixelType type, const Attributes& attributes,
-                        const std::string& texels) {
+std::string ktx2_header(const Contents& contents, PixelType type, const Attributes& attributes,
+                        size_t texel_bytes) {
   const std::string format = descriptor(type, contents.channels);
   const std::string keys = key_value_block(contents.depth, attributes);
   const size_t format_at = header_bytes + level_index_bytes;
   const size_t keys_at = format_at + format.size();
-  const size_t texel = texels.size() / static_cast<size_t>(area(contents.slice) * contents.depth);
+  const size_t texel = texel_bytes / static_cast<size_t>(area(contents.slice) * contents.depth);
   size_t step = texel;
   while (step % 4 != 0) step += texel;
   const size_t texels_at = (keys_at + keys.size() + step - 1) / step * step;
@@ -110,12 +110,17 @@ std::string encode_ktx2(const Contents& contents, PixelType type, const Attribut
   append_words(bytes, {static_cast<uint32_t>(format_at), static_cast<uint32_t>(format.size()),
                        static_cast<uint32_t>(keys_at), static_cast<uint32_t>(keys.size())});
   append_words(bytes, {0, 0, 0, 0});
-  for (const size_t number : {texels_at, texels.size(), texels.size()}) {
+  for (const size_t number : {texels_at, texel_bytes, texel_bytes}) {
     append_little(bytes, number, 8);
   }
   bytes.append(format).append(keys);
   bytes.resize(texels_at, '\0');
-  return bytes += texels;
+  return bytes;
+}
+
+std::string encode_ktx2(const Contents& contents, PixelType type, const Attributes& attributes,
+                        const std::string& texels) {
+  return ktx2_header(contents, type, attributes, texels.size()) += texels;
 }
 
 }  // namespace kiln::io

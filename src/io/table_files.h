@@ -19,13 +19,22 @@ struct Contents {
   int channels = 1;
 };
 
-/// DDS with a header of DirectX 10, one level, rows without padding.
-/// @param type  not Rgbd8  @source Microsoft, "DDS_HEADER", "DDS_HEADER_DXT10"
+/// What stands before the texels in a DDS: a header of DirectX 10, one level, rows without padding.
+/// @param type         not Rgbd8
+/// @param texel_bytes  of all texels together
+/// @source Microsoft, "DDS_HEADER", "DDS_HEADER_DXT10"
+std::string dds_header(const Contents& contents, PixelType type, size_t texel_bytes);
+/// The header, then the texels.
 std::string encode_dds(const Contents& contents, PixelType type, const std::string& texels);
 
-/// KTX 2 without supercompression, one level; key "KTXwriter" from the attribute Software.
-/// @error Fault::Usage for metadata names that the format cannot hold
+/// What stands before the texels in a KTX 2 without supercompression, one level; key "KTXwriter"
+/// from the attribute Software.
+/// @param texel_bytes  of all texels together
+/// @error  Fault::Usage for metadata names that the format cannot hold
 /// @source Khronos, "KTX File Format Specification" 2.0; "Khronos Data Format Specification" 1.3
+std::string ktx2_header(const Contents& contents, PixelType type, const Attributes& attributes,
+                        size_t texel_bytes);
+/// The header, then the texels.
 std::string encode_ktx2(const Contents& contents, PixelType type, const Attributes& attributes,
                         const std::string& texels);
 
