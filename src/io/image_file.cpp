@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <memory>
 #include <numeric>
 #include <utility>
 
+#include "band_encoder.h"
 #include "file_bytes.h"
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
@@ -49,16 +52,38 @@ void check_type(const fs::path& path, const WritableFormat& format, PixelType ty
                                         format.name, pixel_type_name(type), fmt::join(held, ", ")));
 }
 
+[[noreturn]] void refuse_image(const fs::path& path, Size size, size_t planes) {
+  throw Error(Fault::Internal,
+              fmt::format("{}: an image of {} x {} texels with {} planes cannot be written",
+                          path.string(), size.width, size.height, planes));
+}
+
+std::vector<std::string> names_of(const Layers& image) {
+  std::vector<std::string> names;
+  for (const Layer& layer : image.layers) names.push_back(layer.name);
+  return names;
+}
+
 void check_planes(const fs::path& path, const Layers& image) {
   const bool whole = std::all_of(image.layers.begin(), image.layers.end(), [&](const Layer& layer) {
     return layer.plane.size() == image.size;
   });
   if (!whole || image.layers.empty() || area(image.size) < 1) {
-    throw Error(Fault::Internal, fmt::format("{}: an image of {} x {} texels with {} planes cannot "
-                                             "be written",
-                                             path.string(), image.size.width, image.size.height,
-                                             image.layers.size()));
+    refuse_image(path, image.size, image.layers.size());
   }
+}
+
+void check_bands(const fs::path& path, const ImageBands& image) {
+  if (area(image.size) < 1 || image.names.empty() || image.band_rows < 1) {
+    refuse_image(path, image.size, image.names.size());
+  }
+}
+
+// A band of other rows or layers than promised.
+void check_band(const fs::path& path, const Layers& band, Size size,
+                const std::vector<std::string>& names) {
+  check_planes(path, band);
+  if (band.size != size || names_of(band) != names) refuse_image(path, band.size, names.size());
 }
 
 // R G B A (or Y A) in that order where all names are of these, else as the layers stand.
@@ -133,44 +158,68 @@ void check_rgbd(const fs::path& path, const io::StoredPlanes& stored, PixelType 
                                         path.string(), stored.planes.size()));
 }
 
-std::string encoded_picture(const WritableFormat& format, Size size, const io::StoredPlanes& stored,
-                            WriteOptions options, WriteFacts& facts) {
-  if (format.name == "hdr") {
-    std::vector<const Plane*> planes = stored.planes;
-    std::erase(planes, nullptr);
-    return io::encode_hdr(planes, options.attributes, facts);
-  }
-  if (options.type == PixelType::Rgbd8) {
-    const Layers coded = io::rgbd_image(size, stored, facts);
-    options.type = PixelType::Uint8;
-    return encoded_picture(format, size, io::planes_of(coded), std::move(options), facts);
-  }
-  if (format.name == "jpeg") options.attributes.clear();
-  if (options.color_tag == ColorTag::Srgb) {
-    options.attributes.emplace_back("oiio:ColorSpace", "sRGB");
-  } else if (options.color_tag == ColorTag::Linear) {
-    options.attributes.emplace_back("oiio:ColorSpace", "Linear");
-  }
-  return io::encode_by_openimageio(std::string(format.name), size, stored, options, facts);
+io::StoredPlanes planes_of_format(const fs::path& path, const WritableFormat& format,
+                                  const Layers& image, const WriteOptions& options) {
+  if (format.name == "openexr") return in_file_order(image, {});
+  return holds_tables(format) ? planes_of_table(path, format, image, options)
+                              : planes_of_picture(path, format, image, options);
 }
 
-std::string encoded(const fs::path& path, const WritableFormat& format, const Layers& image,
-                    const WriteOptions& options, WriteFacts& facts) {
-  const bool table = holds_tables(format);
-  const io::StoredPlanes stored = table ? planes_of_table(path, format, image, options)
-                                        : planes_of_picture(path, format, image, options);
-  check_rgbd(path, stored, options.type);
-  return with_context(path.string(), [&] {
-    if (table) return io::encode_table(format.name, path, stored, options, facts);
-    return encoded_picture(format, image.size, stored, options, facts);
-  });
+// Colour over a common divisor is an image of bytes to the format.
+class RgbdEncoder : public io::BandEncoder {
+ public:
+  RgbdEncoder(std::unique_ptr<io::BandEncoder> bytes, WriteFacts& facts)
+      : bytes_(std::move(bytes)), facts_(facts) {}
+
+  void add(const io::StoredPlanes& band) override {
+    const Layers coded = io::rgbd_image(band.size(), band, facts_);
+    bytes_->add(io::planes_of(coded));
+  }
+  void finish() override { bytes_->finish(); }
+
+ private:
+  std::unique_ptr<io::BandEncoder> bytes_;
+  WriteFacts& facts_;
+};
+
+std::unique_ptr<io::BandEncoder> make_encoder(io::FileToWrite file,
+                                              const io::StoredPlanes& layout) {
+  if (file.options.type == PixelType::Rgbd8) {
+    file.options.type = PixelType::Uint8;
+    file.options.labels = {};
+    const Layers coded = make_layers({}, {"R", "G", "B", "A"});
+    return std::make_unique<RgbdEncoder>(make_encoder(file, io::planes_of(coded)), file.facts);
+  }
+  if (file.format == "openexr") return io::openexr_encoder(file, layout);
+  if (file.format == "hdr") return io::hdr_encoder(file);
+  if (holds_tables(writable_format(file.path))) return io::table_encoder(file, layout);
+  return io::openimageio_encoder(file, layout);
 }
 
-WriteFacts write_openexr_file(const fs::path& path, const Layers& image,
-                              const WriteOptions& options) {
+using Take = std::function<void(const Layers& band)>;
+
+// Publishes an image of these layers whose bands `feed` hands over, from the top.
+WriteFacts write_fed(const fs::path& path, Size size, const std::vector<std::string>& names,
+                     const WriteOptions& options, const std::function<void(const Take&)>& feed) {
+  const WritableFormat& format = writable_format(path);
+  check_type(path, format, options.type);
+  const auto planes = [&](const Layers& image) {
+    return planes_of_format(path, format, image, options);
+  };
+  const Layers blank = make_layers({}, names);
+  const io::StoredPlanes layout = planes(blank);
+  check_rgbd(path, layout, options.type);
   WriteFacts facts;
-  publish_file(path, [&](const fs::path& temporary) {
-    facts = io::write_openexr(temporary, path, image, options);
+  publish_stream(path, [&](ByteStream& out) {
+    const std::string context = path.string();
+    const auto encoder = with_context(context, [&] {
+      return make_encoder({path, format.name, size, options, out, facts}, layout);
+    });
+    feed([&](const Layers& band) {
+      with_context(context, [&] { encoder->add(planes(band)); });
+      out.check();
+    });
+    with_context(context, [&] { encoder->finish(); });
   });
   return facts;
 }
@@ -259,13 +308,21 @@ const WritableFormat& writable_format(const fs::path& path) {
 }
 
 WriteFacts write_image(const fs::path& path, const Layers& image, const WriteOptions& options) {
-  const WritableFormat& format = writable_format(path);
-  check_type(path, format, options.type);
   check_planes(path, image);
-  if (format.name == "openexr") return write_openexr_file(path, image, options);
-  WriteFacts facts;
-  publish_text(path, encoded(path, format, image, options, facts));
-  return facts;
+  return write_fed(path, image.size, names_of(image), options,
+                   [&](const Take& take) { take(image); });
+}
+
+WriteFacts write_bands(const fs::path& path, const ImageBands& image, const WriteOptions& options) {
+  check_bands(path, image);
+  return write_fed(path, image.size, image.names, options, [&](const Take& take) {
+    for (int first = 0; first < image.size.height; first += image.band_rows) {
+      const int rows = std::min(image.band_rows, image.size.height - first);
+      const Layers band = image.make(first, rows);
+      check_band(path, band, {image.size.width, rows}, image.names);
+      take(band);
+    }
+  });
 }
 
 }  // namespace kiln

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
-#include <string_view>
 
+#include "band_encoder.h"
 #include "kiln/core/size.h"
 #include "kiln/io/image_file.h"
 #include "stored_planes.h"
@@ -38,22 +38,20 @@ std::string ktx2_header(const Contents& contents, PixelType type, const Attribut
 std::string encode_ktx2(const Contents& contents, PixelType type, const Attributes& attributes,
                         const std::string& texels);
 
-/// NumPy array, version 1.0. @source NumPy, "numpy.lib.format"
-std::string encode_npy(const Contents& contents, PixelType type, const std::string& texels);
+/// What stands before the texels of a NumPy array, version 1.0. @source NumPy, "numpy.lib.format"
+std::string npy_header(const Contents& contents, PixelType type);
 
 /// Comments, a header line, then one line an entry: coordinates, channels.
-std::string encode_csv(const Contents& contents, const StoredPlanes& stored,
-                       const WriteOptions& options);
+std::unique_ptr<BandEncoder> csv_encoder(const FileToWrite& file, const Contents& contents,
+                                         const StoredPlanes& layout);
 
-/// A header for C99 and C++ with one array, named by the stem of `path`.
-std::string encode_c_header(const std::filesystem::path& path, const Contents& contents,
-                            const StoredPlanes& stored, const WriteOptions& options,
-                            const std::string& texels);
+/// A header for C99 and C++ with one array, named by the stem of the path.
+std::unique_ptr<BandEncoder> c_header_encoder(const FileToWrite& file, const Contents& contents,
+                                              const StoredPlanes& layout);
 
-/// The one of these that `format` names; `path` gives a name to what is in a C header.
-/// @error Fault::Internal when depth or labels do not fit
-std::string encode_table(std::string_view format, const std::filesystem::path& path,
-                         const StoredPlanes& planes, const WriteOptions& options,
-                         WriteFacts& facts);
+/// The encoder of one of these formats.
+/// @valid options.type is not Rgbd8
+/// @error Fault::Internal when depth or labels do not fit; of the headers
+std::unique_ptr<BandEncoder> table_encoder(const FileToWrite& file, const StoredPlanes& layout);
 
 }  // namespace kiln::io

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
 
 namespace kiln {
@@ -162,6 +163,12 @@ const WritableFormat& writable_format(const std::filesystem::path& path);
 /// @error Fault::Usage for an unknown extension or a type or channels that the format cannot hold,
 ///        Fault::Output when it cannot be written
 WriteFacts write_image(const std::filesystem::path& path, const Layers& image,
+                       const WriteOptions& options);
+
+/// The same for an image that need not be held: the same bytes, and one band in memory at a time.
+/// (JPEG is encoded in memory by its library.)
+/// @error as write_image, and what making a band throws
+WriteFacts write_bands(const std::filesystem::path& path, const ImageBands& image,
                        const WriteOptions& options);
 
 }  // namespace kiln
