@@ -12,6 +12,7 @@
 #include "attribute_lines.h"
 #include "samples.h"
 #include "table_files.h"
+#include "texel_pack.h"
 
 namespace kiln::io {
 namespace {
@@ -153,33 +154,72 @@ std::string leading_comment(const std::string& name, const Contents& contents,
   return text += " */\n";
 }
 
+std::string declaration(const std::string& name, const Contents& contents, PixelType type) {
+  std::string text = fmt::format("static const {} {}", element(type), name);
+  if (contents.depth > 1) text += fmt::format("[{}]", contents.depth);
+  return text + fmt::format("[{}][{}][{}] = {{\n", contents.slice.height, contents.slice.width,
+                            contents.channels);
+}
+
+class CHeaderEncoder : public BandEncoder {
+ public:
+  CHeaderEncoder(const FileToWrite& file, const Contents& contents, const StoredPlanes& layout)
+      : file_(file), contents_(contents) {
+    const std::string name = identifier(file.path.stem().string());
+    guard_ = name + "_h";
+    std::transform(guard_.begin(), guard_.end(), guard_.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    file_.out.append(leading_comment(name, contents, layout, file.options));
+    file_.out.append(fmt::format("#ifndef {0}\n#define {0}\n\n", guard_));
+    include_at_ = file_.out.position();
+    file_.out.append(declaration(name, contents, file.options.type));
+  }
+
+  void add(const StoredPlanes& band) override {
+    const Size size = band.size();
+    const PixelType type = file_.options.type;
+    const std::string texels = packed_texels(size, band, contents_.channels, type, file_.facts);
+    if (type == PixelType::Float && !includes_math_ && has_odd_floats(texels)) include_math();
+    const size_t row_bytes = texels.size() / static_cast<size_t>(size.height);
+    for (int y = 0; y < size.height; ++y, ++written_) {
+      text_.clear();
+      append_line(texels.data() + static_cast<size_t>(y) * row_bytes);
+      file_.out.append(text_);
+    }
+  }
+
+  void finish() override { file_.out.append(fmt::format("}};\n\n#endif /* {} */\n", guard_)); }
+
+ private:
+  // Known only once a number asks for it, which may be late and is rare.
+  void include_math() {
+    file_.out.insert(include_at_, "#include <math.h>\n\n");
+    includes_math_ = true;
+  }
+
+  void append_line(const char* texels) {
+    const int height = contents_.slice.height;
+    const bool volume = contents_.depth > 1;
+    const int in_slice = written_ % height;
+    if (volume && in_slice == 0) text_ += " {\n";
+    append_row(texels, contents_, file_.options.type, text_);
+    if (volume && in_slice + 1 == height) text_ += "}";
+    text_ += written_ + 1 < height * contents_.depth ? ",\n" : "\n";
+  }
+
+  FileToWrite file_;
+  Contents contents_;
+  std::string guard_, text_;
+  uint64_t include_at_ = 0;
+  bool includes_math_ = false;
+  int written_ = 0;
+};
+
 }  // namespace
 
-std::string encode_c_header(const std::filesystem::path& path, const Contents& contents,
-                            const StoredPlanes& stored, const WriteOptions& options,
-                            const std::string& texels) {
-  const std::string name = identifier(path.stem().string());
-  std::string guard = name + "_h";
-  std::transform(guard.begin(), guard.end(), guard.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::string text = leading_comment(name, contents, stored, options);
-  text += fmt::format("#ifndef {0}\n#define {0}\n\n", guard);
-  if (options.type == PixelType::Float && has_odd_floats(texels)) text += "#include <math.h>\n\n";
-  const bool volume = contents.depth > 1;
-  text += fmt::format("static const {} {}", element(options.type), name);
-  if (volume) text += fmt::format("[{}]", contents.depth);
-  text += fmt::format("[{}][{}][{}] = {{\n", contents.slice.height, contents.slice.width,
-                      contents.channels);
-  const int rows = contents.slice.height * contents.depth;
-  const size_t row_bytes = texels.size() / static_cast<size_t>(rows);
-  for (int y = 0; y < rows; ++y) {
-    const int in_slice = y % contents.slice.height;
-    if (volume && in_slice == 0) text += " {\n";
-    append_row(texels.data() + static_cast<size_t>(y) * row_bytes, contents, options.type, text);
-    if (volume && in_slice + 1 == contents.slice.height) text += "}";
-    text += y + 1 < rows ? ",\n" : "\n";
-  }
-  return text += fmt::format("}};\n\n#endif /* {} */\n", guard);
+std::unique_ptr<BandEncoder> c_header_encoder(const FileToWrite& file, const Contents& contents,
+                                              const StoredPlanes& layout) {
+  return std::make_unique<CHeaderEncoder>(file, contents, layout);
 }
 
 }  // namespace kiln::io

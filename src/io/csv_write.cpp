@@ -63,25 +63,47 @@ std::string head(const std::vector<AxisTexts>& axes, const StoredPlanes& stored,
   return text;
 }
 
-}  // namespace
+class CsvEncoder : public BandEncoder {
+ public:
+  CsvEncoder(const FileToWrite& file, const Contents& contents, const StoredPlanes& layout)
+      : file_(file), contents_(contents), axes_(all_axes(contents, file.options)) {
+    file_.out.append(head(axes_, layout, file.options.attributes));
+  }
 
-std::string encode_csv(const Contents& contents, const StoredPlanes& stored,
-                       const WriteOptions& options) {
-  const std::vector<AxisTexts> axes = all_axes(contents, options);
-  std::string text = head(axes, stored, options.attributes);
-  const int height = contents.slice.height;
-  for (int y = 0; y < height * contents.depth; ++y) {
-    for (int x = 0; x < contents.slice.width; ++x) {
-      text += axes[0].coordinates[static_cast<size_t>(x)];
-      if (axes.size() > 1) text += axes[1].coordinates[static_cast<size_t>(y % height)];
-      if (axes.size() > 2) text += axes[2].coordinates[static_cast<size_t>(y / height)];
-      for (const Plane* plane : stored.planes) {
-        fmt::format_to(std::back_inserter(text), "{:.9g},", plane->at(x, y));
-      }
-      text.back() = '\n';
+  void add(const StoredPlanes& band) override {
+    for (int y = 0; y < band.size().height; ++y, ++written_) {
+      text_.clear();
+      for (int x = 0; x < contents_.slice.width; ++x) append_entry(band, x, y);
+      file_.out.append(text_);
     }
   }
-  return text;
+
+  void finish() override {}
+
+ private:
+  void append_entry(const StoredPlanes& band, int x, int y) {
+    const int height = contents_.slice.height;
+    text_ += axes_[0].coordinates[static_cast<size_t>(x)];
+    if (axes_.size() > 1) text_ += axes_[1].coordinates[static_cast<size_t>(written_ % height)];
+    if (axes_.size() > 2) text_ += axes_[2].coordinates[static_cast<size_t>(written_ / height)];
+    for (const Plane* plane : band.planes) {
+      fmt::format_to(std::back_inserter(text_), "{:.9g},", plane->at(x, y));
+    }
+    text_.back() = '\n';
+  }
+
+  FileToWrite file_;
+  Contents contents_;
+  std::vector<AxisTexts> axes_;
+  std::string text_;
+  int written_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<BandEncoder> csv_encoder(const FileToWrite& file, const Contents& contents,
+                                         const StoredPlanes& layout) {
+  return std::make_unique<CsvEncoder>(file, contents, layout);
 }
 
 }  // namespace kiln::io

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <functional>
+#include <memory>
 #include <utility>
 
+#include "band_encoder.h"
+#include "env_file.h"
 #include "file_bytes.h"
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
@@ -33,14 +36,6 @@ std::string format_of(const fs::path& path) {
   return io::format_by_contents(path, io::first_bytes(path, io::signature_length));
 }
 
-// Where the texels of a texture container lie; nothing where OpenImageIO is to read the file.
-std::optional<io::StoredTexels> texels_of(const std::string& format, io::ByteView bytes) {
-  if (format == "dds") return io::dds_texels(bytes);
-  if (format == "ktx") return io::ktx1_texels(bytes);
-  if (format == "ktx2") return io::ktx2_texels(bytes);
-  return std::nullopt;
-}
-
 void check_type(const fs::path& path, const WritableFormat& format, PixelType type) {
   if (std::find(format.types.begin(), format.types.end(), type) != format.types.end()) return;
   std::vector<std::string_view> held;
@@ -49,40 +44,38 @@ void check_type(const fs::path& path, const WritableFormat& format, PixelType ty
                                         format.name, pixel_type_name(type), fmt::join(held, ", ")));
 }
 
+[[noreturn]] void refuse_image(const fs::path& path, Size size, size_t planes) {
+  throw Error(Fault::Internal,
+              fmt::format("{}: an image of {} x {} texels with {} planes cannot be written",
+                          path.string(), size.width, size.height, planes));
+}
+
+std::vector<std::string> names_of(const Layers& image) {
+  std::vector<std::string> names;
+  for (const Layer& layer : image.layers) names.push_back(layer.name);
+  return names;
+}
+
 void check_planes(const fs::path& path, const Layers& image) {
   const bool whole = std::all_of(image.layers.begin(), image.layers.end(), [&](const Layer& layer) {
     return layer.plane.size() == image.size;
   });
   if (!whole || image.layers.empty() || area(image.size) < 1) {
-    throw Error(Fault::Internal, fmt::format("{}: an image of {} x {} texels with {} planes cannot "
-                                             "be written",
-                                             path.string(), image.size.width, image.size.height,
-                                             image.layers.size()));
+    refuse_image(path, image.size, image.layers.size());
   }
 }
 
-// R G B A (or Y A) in that order where all names are of these, else as the layers stand.
-io::StoredPlanes in_file_order(const Layers& image, const Labels& labels) {
-  std::vector<size_t> order(image.layers.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  const auto rank = [&](size_t at) { return io::channel_rank(image.layers[at].name); };
-  const bool all_known = std::all_of(order.begin(), order.end(),
-                                     [&](size_t at) { return rank(at) <= io::channel_rank("A"); });
-  if (all_known) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return rank(a) < rank(b); });
+void check_bands(const fs::path& path, const ImageBands& image) {
+  if (area(image.size) < 1 || image.names.empty() || image.band_rows < 1) {
+    refuse_image(path, image.size, image.names.size());
   }
-  const bool labelled = labels.channels.size() == order.size();
-  io::StoredPlanes stored;
-  stored.planes.reserve(order.size());
-  stored.names.reserve(order.size());
-  for (const size_t at : order) {
-    const Layer& layer = image.layers[at];
-    if (layer.name == "A") stored.alpha_channel = static_cast<int>(stored.planes.size());
-    stored.planes.push_back(&layer.plane);
-    stored.names.push_back(labelled ? labels.channels[at] : layer.name);
-  }
-  return stored;
+}
+
+// A band of other rows or layers than promised.
+void check_band(const fs::path& path, const Layers& band, Size size,
+                const std::vector<std::string>& names) {
+  check_planes(path, band);
+  if (band.size != size || names_of(band) != names) refuse_image(path, band.size, names.size());
 }
 
 [[noreturn]] void refuse_channels(const fs::path& path, const WritableFormat& format,
@@ -101,7 +94,7 @@ bool holds_tables(const WritableFormat& format) {
 // The number of channels is all that limits textures, and files of tables hold any.
 io::StoredPlanes planes_of_table(const fs::path& path, const WritableFormat& format,
                                  const Layers& image, const WriteOptions& options) {
-  io::StoredPlanes stored = in_file_order(image, options.labels);
+  io::StoredPlanes stored = io::in_file_order(image, options.labels.channels);
   const bool texture = format.name == "dds" || format.name == "ktx2";
   if (texture && stored.planes.size() > 4) refuse_channels(path, format, image);
   return stored;
@@ -109,7 +102,7 @@ io::StoredPlanes planes_of_table(const fs::path& path, const WritableFormat& for
 
 io::StoredPlanes planes_of_picture(const fs::path& path, const WritableFormat& format,
                                    const Layers& image, const WriteOptions& options) {
-  io::StoredPlanes stored = in_file_order(image, options.labels);
+  io::StoredPlanes stored = io::in_file_order(image, options.labels.channels);
   if (format.name == "tiff") return stored;
   const bool holds_alpha = format.name == "png";
   const size_t most = holds_alpha ? 4 : 3;
@@ -126,51 +119,68 @@ io::StoredPlanes planes_of_picture(const fs::path& path, const WritableFormat& f
   return stored;
 }
 
-void check_rgbd(const fs::path& path, const io::StoredPlanes& stored, PixelType type) {
-  if (type != PixelType::Rgbd8 || (stored.planes.size() <= 3 && stored.alpha_channel < 0)) return;
-  throw Error(Fault::Usage, fmt::format("{}: found {} channels; rgbd8 holds 1 to 3, its alpha is a "
-                                        "divisor of theirs",
-                                        path.string(), stored.planes.size()));
+io::StoredPlanes planes_of_format(const fs::path& path, const WritableFormat& format,
+                                  const Layers& image, const WriteOptions& options) {
+  if (format.name == "openexr") return io::in_file_order(image);
+  return holds_tables(format) ? planes_of_table(path, format, image, options)
+                              : planes_of_picture(path, format, image, options);
 }
 
-std::string encoded_picture(const WritableFormat& format, Size size, const io::StoredPlanes& stored,
-                            WriteOptions options, WriteFacts& facts) {
-  if (format.name == "hdr") {
-    std::vector<const Plane*> planes = stored.planes;
-    std::erase(planes, nullptr);
-    return io::encode_hdr(planes, options.attributes, facts);
+// Colour over a common divisor is an image of bytes to the format.
+class RgbdEncoder : public io::BandEncoder {
+ public:
+  RgbdEncoder(std::unique_ptr<io::BandEncoder> bytes, WriteFacts& facts)
+      : bytes_(std::move(bytes)), facts_(facts) {}
+
+  void add(const io::StoredPlanes& band) override {
+    const Layers coded = io::rgbd_image(band.size(), band, facts_);
+    bytes_->add(io::planes_of(coded));
   }
-  if (options.type == PixelType::Rgbd8) {
-    const Layers coded = io::rgbd_image(size, stored, facts);
-    options.type = PixelType::Uint8;
-    return encoded_picture(format, size, io::planes_of(coded), std::move(options), facts);
+  void finish() override { bytes_->finish(); }
+
+ private:
+  std::unique_ptr<io::BandEncoder> bytes_;
+  WriteFacts& facts_;
+};
+
+std::unique_ptr<io::BandEncoder> make_encoder(io::FileToWrite file,
+                                              const io::StoredPlanes& layout) {
+  if (file.options.type == PixelType::Rgbd8) {
+    file.options.type = PixelType::Uint8;
+    file.options.labels = {};
+    const Layers coded = make_layers({}, {"R", "G", "B", "A"});
+    return std::make_unique<RgbdEncoder>(make_encoder(file, io::planes_of(coded)), file.facts);
   }
-  if (format.name == "jpeg") options.attributes.clear();
-  if (options.color_tag == ColorTag::Srgb) {
-    options.attributes.emplace_back("oiio:ColorSpace", "sRGB");
-  } else if (options.color_tag == ColorTag::Linear) {
-    options.attributes.emplace_back("oiio:ColorSpace", "Linear");
-  }
-  return io::encode_by_openimageio(std::string(format.name), size, stored, options, facts);
+  if (file.format == "openexr") return io::openexr_encoder(file, layout);
+  if (file.format == "hdr") return io::hdr_encoder(file);
+  if (holds_tables(writable_format(file.path))) return io::table_encoder(file, layout);
+  return io::openimageio_encoder(file, layout);
 }
 
-std::string encoded(const fs::path& path, const WritableFormat& format, const Layers& image,
-                    const WriteOptions& options, WriteFacts& facts) {
-  const bool table = holds_tables(format);
-  const io::StoredPlanes stored = table ? planes_of_table(path, format, image, options)
-                                        : planes_of_picture(path, format, image, options);
-  check_rgbd(path, stored, options.type);
-  return with_context(path.string(), [&] {
-    if (table) return io::encode_table(format.name, path, stored, options, facts);
-    return encoded_picture(format, image.size, stored, options, facts);
-  });
-}
+using Take = std::function<void(const Layers& band)>;
 
-WriteFacts write_openexr_file(const fs::path& path, const Layers& image,
-                              const WriteOptions& options) {
+// Publishes an image of these layers whose bands `feed` hands over, from the top.
+WriteFacts write_fed(const fs::path& path, Size size, const std::vector<std::string>& names,
+                     const WriteOptions& options, const std::function<void(const Take&)>& feed) {
+  const WritableFormat& format = writable_format(path);
+  check_type(path, format, options.type);
+  const auto planes = [&](const Layers& image) {
+    return planes_of_format(path, format, image, options);
+  };
+  const Layers blank = make_layers({}, names);
+  const io::StoredPlanes layout = planes(blank);
+  with_context(path.string(), [&] { io::require_room(layout, options.type); });
   WriteFacts facts;
-  publish_file(path, [&](const fs::path& temporary) {
-    facts = io::write_openexr(temporary, path, image, options);
+  publish_stream(path, [&](ByteStream& out) {
+    const std::string context = path.string();
+    const auto encoder = with_context(context, [&] {
+      return make_encoder({path, format.name, size, options, out, facts}, layout);
+    });
+    feed([&](const Layers& band) {
+      with_context(context, [&] { encoder->add(planes(band)); });
+      out.check();
+    });
+    with_context(context, [&] { encoder->finish(); });
   });
   return facts;
 }
@@ -191,6 +201,10 @@ std::string_view pixel_type_name(PixelType type) {
       return "rgb10a2";
     case PixelType::Rgbd8:
       return "rgbd8";
+    case PixelType::B10g11r11:
+      return "b10g11r11";
+    case PixelType::E5b9g9r9:
+      return "e5b9g9r9";
   }
   return "float";
 }
@@ -203,7 +217,8 @@ FileFacts inspect_image(const fs::path& path) {
     const io::Bytes bytes = io::all_bytes(path);
     if (format == "hdr") return io::inspect_hdr(bytes, limits);
     if (format == "npy") return io::inspect_npy(bytes, limits);
-    if (const auto texels = texels_of(format, bytes)) {
+    if (format == "env") return io::inspect_env(bytes, limits);
+    if (const auto texels = io::stored_texels(format, bytes)) {
       return io::facts_of_texels(*texels, bytes, limits);
     }
     return io::inspect_by_openimageio(format, bytes, limits);
@@ -221,7 +236,8 @@ io::Volume io::read_volume(const fs::path& path, const std::string& format,
   const Bytes bytes = all_bytes(path);
   if (format == "hdr") return {read_hdr(bytes, limits)};
   if (format == "npy") return read_npy_image(bytes, limits);
-  if (const auto texels = texels_of(format, bytes)) return read_texels(*texels, bytes, limits);
+  if (format == "env") return {read_env(bytes, limits)};
+  if (const auto texels = stored_texels(format, bytes)) return read_texels(*texels, bytes, limits);
   return {read_by_openimageio(format, bytes, limits)};
 }
 
@@ -259,13 +275,21 @@ const WritableFormat& writable_format(const fs::path& path) {
 }
 
 WriteFacts write_image(const fs::path& path, const Layers& image, const WriteOptions& options) {
-  const WritableFormat& format = writable_format(path);
-  check_type(path, format, options.type);
   check_planes(path, image);
-  if (format.name == "openexr") return write_openexr_file(path, image, options);
-  WriteFacts facts;
-  publish_text(path, encoded(path, format, image, options, facts));
-  return facts;
+  return write_fed(path, image.size, names_of(image), options,
+                   [&](const Take& take) { take(image); });
+}
+
+WriteFacts write_bands(const fs::path& path, const ImageBands& image, const WriteOptions& options) {
+  check_bands(path, image);
+  return write_fed(path, image.size, image.names, options, [&](const Take& take) {
+    for (int first = 0; first < image.size.height; first += image.band_rows) {
+      const int rows = std::min(image.band_rows, image.size.height - first);
+      const Layers band = image.make(first, rows);
+      check_band(path, band, {image.size.width, rows}, image.names);
+      take(band);
+    }
+  });
 }
 
 }  // namespace kiln

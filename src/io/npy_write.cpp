@@ -32,7 +32,7 @@ std::string shape_text(const Contents& contents) {
 
 }  // namespace
 
-std::string encode_npy(const Contents& contents, PixelType type, const std::string& texels) {
+std::string npy_header(const Contents& contents, PixelType type) {
   std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
                                    description(type), shape_text(contents));
   constexpr size_t before = 10, step = 64;
@@ -41,7 +41,7 @@ std::string encode_npy(const Contents& contents, PixelType type, const std::stri
   header += '\n';
   std::string bytes("\x93NUMPY\x01\0", 8);
   append_little(bytes, header.size(), 2);
-  return bytes.append(header).append(texels);
+  return bytes += header;
 }
 
 }  // namespace kiln::io

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
+#include "band_encoder.h"
 #include "kiln/io/image_file.h"
 
 namespace kiln::io {
@@ -13,11 +15,8 @@ FileFacts inspect_openexr(const std::filesystem::path& path, const ReadLimits& l
 /// The first part, largest level, over its display window. @error Fault::Input, without the path
 ImageFile read_openexr(const std::filesystem::path& path, const ReadLimits& limits);
 
-/// Scan lines, ZIP or not packed, channels in the order of their names.
-/// @param type  Half or Float
-/// @error Fault::Output, naming `shown_path`; Fault::Usage for names that a file cannot hold
-WriteFacts write_openexr(const std::filesystem::path& temporary,
-                         const std::filesystem::path& shown_path, const Layers& image,
-                         const WriteOptions& options);
+/// Scan lines, ZIP or not packed, channels in the order of their names; Half or Float.
+/// @error Fault::Output and, for names that a file cannot hold, Fault::Usage; without the path
+std::unique_ptr<BandEncoder> openexr_encoder(const FileToWrite& file, const StoredPlanes& layout);
 
 }  // namespace kiln::io

@@ -23,14 +23,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(Fault::Input, reason); }
 
-// One line, without what the library puts at its end.
-std::string last_error() {
-  std::string text = openimageio().last_error();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  text.erase(text.find_last_not_of(" .") + 1);
-  return text.empty() ? "the decoder gives no reason" : text;
-}
-
 struct Opened {
   std::unique_ptr<module::Reader, void (*)(module::Reader*)> reader;
   module::StoredImage stored;
@@ -56,7 +48,7 @@ Opened open(const std::string& format, ByteView bytes, const ReadLimits& limits)
   const module::Face& face = openimageio();
   Opened opened{{nullptr, face.close}, {}};
   opened.reader.reset(face.open(format.c_str(), bytes.data(), bytes.size(), &opened.stored));
-  if (!opened.reader) refuse(fmt::format("damaged {} file: {}", format, last_error()));
+  if (!opened.reader) refuse(fmt::format("damaged {} file: {}", format, openimageio_error()));
   require_within(limits, opened.stored.width, opened.stored.height, opened.stored.channels);
   return opened;
 }
@@ -128,7 +120,7 @@ Layers read_pixels(const Opened& opened, const std::vector<std::string>& names,
   for (int first = 0; first < stored.height; first += block) {
     const int rows = std::min(block, stored.height - first);
     if (!openimageio().read_rows(opened.reader.get(), first, rows, samples.data())) {
-      refuse(fmt::format("damaged {} file: {}", format, last_error()));
+      refuse(fmt::format("damaged {} file: {}", format, openimageio_error()));
     }
     if (image.layers.empty()) image = make_layers({stored.width, stored.height}, names);
     for (int i = 0; i < rows; ++i) {
@@ -150,39 +142,6 @@ void divide_by_alpha(int alpha_channel, Layers& image) {
       }
     }
   }
-}
-
-std::vector<module::Attribute> texts_of(const Attributes& attributes) {
-  std::vector<module::Attribute> texts;
-  for (const auto& [name, text] : attributes) texts.push_back({name.c_str(), text.c_str()});
-  return texts;
-}
-
-module::WrittenImage described(const std::string& format, Size size, const StoredPlanes& stored,
-                               PixelType type, const std::vector<module::Attribute>& texts) {
-  module::WrittenImage image;
-  image.format = format.c_str();
-  image.width = size.width;
-  image.height = size.height;
-  image.channels = static_cast<int>(stored.planes.size());
-  image.type = type;
-  image.alpha_channel = stored.alpha_channel;
-  image.texts = texts.data();
-  image.text_count = static_cast<int>(texts.size());
-  return image;
-}
-
-void fill_row(const StoredPlanes& stored, PixelType type, int y, std::byte* samples,
-              WriteFacts& facts) {
-  for (size_t c = 0; c < stored.planes.size(); ++c) {
-    if (stored.planes[c] == nullptr) continue;
-    store_samples(stored.planes[c]->texels_of_row(y), type, stored.planes.size(),
-                  samples + c * sample_bytes(type), facts);
-  }
-}
-
-[[noreturn]] void fail_encoding(const std::string& format) {
-  throw Error(Fault::Output, fmt::format("cannot encode as {}: {}", format, last_error()));
 }
 
 }  // namespace
@@ -213,34 +172,6 @@ ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const R
   }
   file.image = oriented(std::move(file.image), opened.stored.orientation);
   return file;
-}
-
-std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,
-                                  const WriteOptions& options, WriteFacts& facts) {
-  const module::Face& face = openimageio();
-  const Attributes attributes =
-      format == "tiff" ? as_tiff_tags(options.attributes) : options.attributes;
-  const std::vector<module::Attribute> texts = texts_of(attributes);
-  const module::WrittenImage image = described(format, size, stored, options.type, texts);
-  const std::unique_ptr<module::Writer, void (*)(module::Writer*)> writer(face.create(&image),
-                                                                          face.drop);
-  if (!writer) fail_encoding(format);
-  constexpr int block = 64;
-  const size_t row_bytes =
-      static_cast<size_t>(size.width) * stored.planes.size() * sample_bytes(options.type);
-  std::vector<std::byte> samples(row_bytes * block);
-  for (int first = 0; first < size.height; first += block) {
-    const int rows = std::min(block, size.height - first);
-    for (int i = 0; i < rows; ++i) {
-      fill_row(stored, options.type, first + i, samples.data() + static_cast<size_t>(i) * row_bytes,
-               facts);
-    }
-    if (!face.write_rows(writer.get(), first, rows, samples.data())) fail_encoding(format);
-  }
-  size_t count = 0;
-  const void* bytes = face.finish(writer.get(), &count);
-  if (bytes == nullptr) fail_encoding(format);
-  return {static_cast<const char*>(bytes), count};
 }
 
 }  // namespace kiln::io

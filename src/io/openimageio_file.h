@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
-#include <vector>
 
+#include "band_encoder.h"
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
-#include "stored_planes.h"
 
 namespace kiln::io {
 
@@ -18,8 +18,8 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
 /// @error Fault::Input, without the path
 ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits);
 
-/// The whole file in memory. @error Fault::Output, without the path
-std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,
-                                  const WriteOptions& options, WriteFacts& facts);
+/// PNG, JPEG and TIFF. @error Fault::Output, without the path
+std::unique_ptr<BandEncoder> openimageio_encoder(const FileToWrite& file,
+                                                 const StoredPlanes& layout);
 
 }  // namespace kiln::io

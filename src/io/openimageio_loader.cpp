@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -69,6 +70,14 @@ const module::Face& load() {
 const module::Face& openimageio() {
   static const module::Face& face = load();
   return face;
+}
+
+// Without what the library puts at the end of its messages.
+std::string openimageio_error() {
+  std::string text = openimageio().last_error();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  text.erase(text.find_last_not_of(" .") + 1);
+  return text.empty() ? "the decoder gives no reason" : text;
 }
 
 }  // namespace kiln::io

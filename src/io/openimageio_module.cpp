@@ -23,9 +23,34 @@ struct Reader {
   std::vector<std::pair<std::string, std::string>> texts;
 };
 
+// What the library writes, on its way to the other side.
+class Target : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit Target(const Sink& sink) : IOProxy("", Write), sink_(sink) {}
+
+  const char* proxytype() const override { return "kiln"; }
+  size_t write(const void* bytes, size_t count) override {
+    const size_t written = pwrite(bytes, count, m_pos);
+    m_pos += static_cast<int64_t>(written);
+    return written;
+  }
+  size_t pwrite(const void* bytes, size_t count, int64_t place) override {
+    const auto first = static_cast<uint64_t>(place);
+    sink_.write(sink_.self, first, bytes, count);
+    size_ = std::max(size_, first + count);
+    return count;
+  }
+  size_t size() const override { return size_; }
+
+ private:
+  Sink sink_;
+  uint64_t size_ = 0;
+};
+
 struct Writer {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput target{bytes};
+  explicit Writer(const Sink& sink) : target(sink) {}
+
+  Target target;
   std::unique_ptr<OIIO::ImageOutput> output;
   OIIO::ImageSpec spec;
 };
@@ -147,6 +172,8 @@ OIIO::TypeDesc library_type(PixelType type) {
     case PixelType::Float:
     case PixelType::Rgb10a2:
     case PixelType::Rgbd8:
+    case PixelType::B10g11r11:
+    case PixelType::E5b9g9r9:
       return OIIO::TypeFloat;
   }
   return OIIO::TypeFloat;
@@ -169,9 +196,9 @@ void settle(OIIO::ImageSpec& spec, const std::string& format) {
   }
 }
 
-Writer* create(const WrittenImage* image) {
+Writer* create(const WrittenImage* image, const Sink* sink) {
   return guarded<Writer*>([&] {
-    auto writer = std::make_unique<Writer>();
+    auto writer = std::make_unique<Writer>(*sink);
     writer->spec =
         OIIO::ImageSpec(image->width, image->height, image->channels, library_type(image->type));
     writer->spec.alpha_channel = image->alpha_channel;
@@ -198,11 +225,10 @@ bool write_rows(Writer* writer, int first, int count, const void* samples) {
   });
 }
 
-const void* finish(Writer* writer, size_t* count) {
-  return guarded<const void*>([&]() -> const void* {
+bool finish(Writer* writer) {
+  return guarded<bool>([&] {
     if (!writer->output->close()) fail(writer->output->geterror());
-    *count = writer->bytes.size();
-    return writer->bytes.data();
+    return true;
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "kiln/io/image_file.h"
 
@@ -14,7 +15,7 @@ namespace kiln::io::module {
 inline constexpr char file_name[] = "kiln_openimageio.so";
 inline constexpr char entry_name[] = "kiln_openimageio";
 /// Changes whenever anything below does.
-inline constexpr int face_version = 1;
+inline constexpr int face_version = 2;
 
 struct Reader;
 struct Writer;
@@ -46,6 +47,12 @@ struct WrittenImage {
   int text_count = 0;
 };
 
+/// Takes the bytes of a file as they come; what is written may be overwritten.
+struct Sink {
+  void* self = nullptr;
+  void (*write)(void* self, uint64_t place, const void* bytes, size_t count) = nullptr;
+};
+
 struct Face {
   int version;
   /// @param bytes  must outlive the reader  @return nullptr on failure
@@ -56,10 +63,10 @@ struct Face {
   bool (*read_rows)(Reader*, int first, int count, void* samples);
   void (*close)(Reader*);
 
-  Writer* (*create)(const WrittenImage*);
+  Writer* (*create)(const WrittenImage*, const Sink*);
   bool (*write_rows)(Writer*, int first, int count, const void* samples);
-  /// Completes the file. @return its bytes, which live until drop(), or nullptr on failure
-  const void* (*finish)(Writer*, size_t* count);
+  /// Completes the file.
+  bool (*finish)(Writer*);
   void (*drop)(Writer*);
 
   const char* (*last_error)();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <memory>
 
+#include "band_encoder.h"
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
 
@@ -19,11 +20,10 @@ FileFacts inspect_hdr(ByteView bytes, const ReadLimits& limits);
 /// @source Ward, "Real Pixels", Graphics Gems II, 1991; Radiance reference, "picture" file format
 ImageFile read_hdr(ByteView bytes, const ReadLimits& limits);
 
-/// The image as RGBE, run-length encoded; mantissas rounded to nearest.
+/// RGBE, run-length encoded; mantissas rounded to nearest.
 /// One channel is repeated, a missing third is 0. Attributes become comments "# name: text", which
 /// read_hdr gives back; line breaks become blanks.
-/// @valid 1 to 3 planes, in the order R G B
-std::string encode_hdr(const std::vector<const Plane*>& planes, const Attributes& attributes,
-                       WriteFacts& facts);
+/// @valid a layout of 1 to 3 planes, in the order R G B
+std::unique_ptr<BandEncoder> hdr_encoder(const FileToWrite& file);
 
 }  // namespace kiln::io

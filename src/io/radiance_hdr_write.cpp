@@ -79,26 +79,47 @@ void append_line(const std::vector<Rgbe>& line, std::string& bytes) {
   for (size_t component = 0; component < 4; ++component) append_component(line, component, bytes);
 }
 
+class HdrEncoder : public BandEncoder {
+ public:
+  explicit HdrEncoder(const FileToWrite& file)
+      : file_(file), line_(static_cast<size_t>(file.size.width)) {
+    std::string head = "#?RADIANCE\n";
+    for (const auto& [name, text] : file.options.attributes) head += comment_line("# ", name, text);
+    head +=
+        fmt::format("FORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", file.size.height, file.size.width);
+    file_.out.append(head);
+  }
+
+  void add(const StoredPlanes& band) override {
+    std::string bytes;
+    for (int y = 0; y < band.size().height; ++y) {
+      for (int x = 0; x < file_.size.width; ++x) line_[static_cast<size_t>(x)] = pixel(band, x, y);
+      bytes.clear();
+      append_line(line_, bytes);
+      file_.out.append(bytes);
+    }
+  }
+
+  void finish() override {}
+
+ private:
+  Rgbe pixel(const StoredPlanes& band, int x, int y) {
+    std::array<float, 3> texel{};
+    for (size_t c = 0; c < band.planes.size(); ++c) {
+      if (band.planes[c] != nullptr) texel[c] = held(band.planes[c]->at(x, y), file_.facts);
+    }
+    if (band.planes.size() == 1) texel = {texel[0], texel[0], texel[0]};
+    return rgbe(texel[0], texel[1], texel[2]);
+  }
+
+  FileToWrite file_;
+  std::vector<Rgbe> line_;
+};
+
 }  // namespace
 
-std::string encode_hdr(const std::vector<const Plane*>& planes, const Attributes& attributes,
-                       WriteFacts& facts) {
-  const Size size = planes.front()->size();
-  std::string bytes = "#?RADIANCE\n";
-  for (const auto& [name, text] : attributes) bytes += comment_line("# ", name, text);
-  bytes += fmt::format("FORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", size.height, size.width);
-  std::vector<Rgbe> line(static_cast<size_t>(size.width));
-  std::array<float, 3> texel{};
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      texel = {};
-      for (size_t c = 0; c < planes.size(); ++c) texel[c] = held(planes[c]->at(x, y), facts);
-      if (planes.size() == 1) texel = {texel[0], texel[0], texel[0]};
-      line[static_cast<size_t>(x)] = rgbe(texel[0], texel[1], texel[2]);
-    }
-    append_line(line, bytes);
-  }
-  return bytes;
+std::unique_ptr<BandEncoder> hdr_encoder(const FileToWrite& file) {
+  return std::make_unique<HdrEncoder>(file);
 }
 
 }  // namespace kiln::io

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kiln/core/error.h"
+#include "samples.h"
 #include "texel_pack.h"
 
 namespace kiln::io {
@@ -37,32 +38,56 @@ void check_labels(const Contents& contents, const StoredPlanes& stored, const La
   if (!fits) refuse("the labels' axes are not those of the image");
 }
 
+Contents contents_of(const FileToWrite& file, const StoredPlanes& layout) {
+  const int depth = file.options.depth;
+  if (depth < 1 || file.size.height % depth != 0) {
+    refuse(fmt::format("{} rows are no {} slices", file.size.height, depth));
+  }
+  return {.slice = {file.size.width, file.size.height / depth},
+          .depth = depth,
+          .channels = stored_channels(file.format, file.options.type, layout.planes.size())};
+}
+
+size_t texel_bytes(int channels, PixelType type) {
+  return type == PixelType::Rgb10a2 ? sample_bytes(type)
+                                    : static_cast<size_t>(channels) * sample_bytes(type);
+}
+
+std::string header_of(const FileToWrite& file, const Contents& contents) {
+  const PixelType type = file.options.type;
+  if (file.format == "npy") return npy_header(contents, type);
+  const size_t bytes = static_cast<size_t>(area(file.size)) * texel_bytes(contents.channels, type);
+  if (file.format == "dds") return dds_header(contents, type, bytes);
+  return ktx2_header(contents, type, file.options.attributes, bytes);
+}
+
+// A header, then nothing but texels.
+class TexelEncoder : public BandEncoder {
+ public:
+  TexelEncoder(const FileToWrite& file, const Contents& contents)
+      : file_(file), channels_(contents.channels) {
+    file_.out.append(header_of(file, contents));
+  }
+
+  void add(const StoredPlanes& band) override {
+    file_.out.append(packed_texels(band.size(), band, channels_, file_.options.type, file_.facts));
+  }
+
+  void finish() override {}
+
+ private:
+  FileToWrite file_;
+  int channels_;
+};
+
 }  // namespace
 
-std::string encode_table(std::string_view format, const std::filesystem::path& path,
-                         const StoredPlanes& planes, const WriteOptions& options,
-                         WriteFacts& facts) {
-  const Size size = planes.planes.front()->size();
-  if (options.depth < 1 || size.height % options.depth != 0) {
-    refuse(fmt::format("{} rows are no {} slices", size.height, options.depth));
-  }
-  if (options.type == PixelType::Rgbd8) {
-    const Layers coded = rgbd_image(size, planes, facts);
-    WriteOptions as_bytes = options;
-    as_bytes.type = PixelType::Uint8;
-    as_bytes.labels = {};
-    return encode_table(format, path, planes_of(coded), as_bytes, facts);
-  }
-  const Contents contents{.slice = {size.width, size.height / options.depth},
-                          .depth = options.depth,
-                          .channels = stored_channels(format, options.type, planes.planes.size())};
-  check_labels(contents, planes, options.labels);
-  if (format == "csv") return encode_csv(contents, planes, options);
-  const std::string texels = packed_texels(size, planes, contents.channels, options.type, facts);
-  if (format == "dds") return encode_dds(contents, options.type, texels);
-  if (format == "ktx2") return encode_ktx2(contents, options.type, options.attributes, texels);
-  if (format == "npy") return encode_npy(contents, options.type, texels);
-  return encode_c_header(path, contents, planes, options, texels);
+std::unique_ptr<BandEncoder> table_encoder(const FileToWrite& file, const StoredPlanes& layout) {
+  const Contents contents = contents_of(file, layout);
+  check_labels(contents, layout, file.options.labels);
+  if (file.format == "csv") return csv_encoder(file, contents, layout);
+  if (file.format == "h") return c_header_encoder(file, contents, layout);
+  return std::make_unique<TexelEncoder>(file, contents);
 }
 
 }  // namespace kiln::io

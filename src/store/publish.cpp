@@ -72,40 +72,13 @@ class Temporary {
   bool renamed_ = false;
 };
 
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : value_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (value_ >= 0) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int value() const { return value_; }
-  int close() { return ::close(std::exchange(value_, -1)); }
-
- private:
-  int value_;
-};
-
 // File systems without fsync answer EINVAL; there is nothing more to ask of them.
 void flush_to_disk(const fs::path& temporary, const fs::path& path) {
-  Descriptor file(temporary, O_RDONLY);
-  if (file.value() < 0) refuse(path, "write", errno);
-  if (fsync(file.value()) != 0 && errno != EINVAL) refuse(path, "flush to disk", errno);
-}
-
-void write_bytes(const fs::path& temporary, std::string_view bytes, const fs::path& path) {
-  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  if (file.value() < 0) refuse(path, "write", errno);
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file.value(), bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) refuse(path, "write", errno);
-    bytes.remove_prefix(static_cast<size_t>(written));
-  }
-  if (file.close() != 0) refuse(path, "write", errno);
+  const int file = open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) refuse(path, "write", errno);
+  const int reason = fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (reason != 0 && reason != EINVAL) refuse(path, "flush to disk", reason);
 }
 
 }  // namespace
@@ -119,14 +92,23 @@ void publish_file(const fs::path& path, const std::function<void(const fs::path&
   temporary.rename_to(path);
 }
 
+void publish_stream(const fs::path& path, const std::function<void(ByteStream&)>& write) {
+  publish_file(path, [&](const fs::path& temporary) {
+    ByteStream out(temporary, path);
+    out.check();
+    write(out);
+    out.close();
+  });
+}
+
 void publish_text(const fs::path& path, const std::string& text) {
-  publish_file(path, [&](const fs::path& temporary) { write_bytes(temporary, text, path); });
+  publish_stream(path, [&](ByteStream& out) { out.append(text); });
 }
 
 void require_writable_folder(const fs::path& folder) {
   make_folder(folder);
   const Temporary probe(temporary_beside(folder / "probe"));
-  write_bytes(probe.path(), "", folder);
+  ByteStream(probe.path(), folder).close();
 }
 
 }  // namespace kiln

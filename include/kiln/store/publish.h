@@ -5,6 +5,8 @@
 #include <functional>
 #include <string>
 
+#include "kiln/store/byte_stream.h"
+
 namespace kiln {
 
 /// Makes a file appear whole or not at all: `write` fills a uniquely named, hidden temporary file
@@ -19,6 +21,11 @@ namespace kiln {
 /// @error Fault::Output when the folder or the file cannot be written; what `write` throws
 void publish_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// Publishes what `write` puts into the stream, which need not be held as a whole.
+/// @error Fault::Output with path and reason; what `write` throws
+void publish_stream(const std::filesystem::path& path,
+                    const std::function<void(ByteStream& out)>& write);
 
 /// Publishes these bytes as they are; text needs no other treatment.
 /// @error Fault::Output with path and reason
