@@ -15,10 +15,11 @@
 namespace kiln {
 namespace {
 
-// Energy that the cut of the sharpest lobe's expansion may neglect, as a root. Wider lobes spread
-// what is neglected over more of the sphere, so they may neglect more.
-constexpr double cut_off = 1e-4;
+// Energy that the cut of the sharpest lobe's expansion may neglect, as a root: the sharper, the
+// less of a light is left in the expansion at all. Wider lobes spread what is neglected over more
+// of the sphere, so they may neglect more.
 constexpr double widest_cut_off = 3e-4;
+double sharpest_cut_off(double alpha) { return std::clamp(2e-6 / alpha, 2e-5, 1e-4); }
 // Share of the power above which a texel is left out of the expansion, in units of alpha^2 of the
 // sharpest lobe: as much as makes that lobe's peak eight times the mean; and never more than this.
 constexpr double hot_threshold = 2;
@@ -104,10 +105,16 @@ Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
   made.lobes = lobes;
   made.kernels.resize(lobes.size());
   const double sharpest = sharpest_of(lobes);
+  // Bands of the lobe itself; beyond these comes the edge that all lobes have at the horizon, for
+  // which no source is made finer.
+  const int bands = static_cast<int>(std::ceil(8 / sharpest));
+  const int most = std::min(highest_order, std::max(bands, latlong.size.width - 1));
   for_rows(static_cast<int>(lobes.size()), [&](int i) {
     const Lobe& lobe = lobes[static_cast<size_t>(i)];
     made.kernels[static_cast<size_t>(i)] = expand_lobe(
-        lobe, std::min(cut_off * std::sqrt(lobe.alpha / sharpest), widest_cut_off), highest_order);
+        lobe,
+        std::min(sharpest_cut_off(sharpest) * std::sqrt(lobe.alpha / sharpest), widest_cut_off),
+        most);
   });
   const int order = highest_of(made.kernels);
   made.source = color_planes(latlong);

@@ -154,6 +154,7 @@ class Runner {
     if (task.needs.material) ingredients.material = &sets_[*task.set].get().svbrdf;
     if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
     if (task.needs.albedo) ingredients.albedo = albedo_.get().get();
+    ingredients.coded = coded_as;
     const Baked baked = task.recipe->bake(ingredients);
     record.notes = baked.notes;
     record.figures = baked.figures;

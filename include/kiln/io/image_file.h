@@ -186,4 +186,8 @@ WriteFacts write_bands(const std::filesystem::path& path, const ImageBands& imag
 ///        one or two; rgb10a2: four)
 Layers coded(const Layers& image, PixelType type);
 
+/// The same for Radiance HDR: three layers that share an exponent.
+/// @error Fault::Usage for more or fewer layers
+Layers coded_as_hdr(const Layers& image);
+
 }  // namespace kiln
