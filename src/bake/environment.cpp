@@ -91,20 +91,20 @@ class Files {
     irradiance_.assign(harmonics.begin(), harmonics.end());
   }
 
-  void add(Baked& baked, const std::string& stem, std::vector<std::vector<Layers>> levels,
-           const std::string& quantity) const {
-    if (recipe_.format.whole) {
-      Artifact artifact = make(stem, quantity);
-      artifact.texture =
-          TextureProduct{{std::move(levels)}, recipe_.zstd, recipe_.format.at_nodes, irradiance_};
-      baked.artifacts.push_back(std::move(artifact));
-      return;
-    }
-    const bool chain = levels.size() > 1;
+  /// Levels, as one texture or as files "STEM_mN".
+  void add_chain(Baked& baked, const std::string& stem, std::vector<std::vector<Layers>> levels,
+                 const std::string& quantity) const {
+    if (recipe_.format.whole) return add_texture(baked, stem, std::move(levels), quantity);
     for (size_t level = 0; level < levels.size(); ++level) {
-      add_images(baked, chain ? fmt::format("{}_m{}", stem, level) : stem, std::move(levels[level]),
-                 quantity);
+      add_images(baked, fmt::format("{}_m{}", stem, level), std::move(levels[level]), quantity);
     }
+  }
+
+  /// A level alone.
+  void add_level(Baked& baked, const std::string& stem, std::vector<Layers> images,
+                 const std::string& quantity) const {
+    if (recipe_.format.whole) return add_texture(baked, stem, {std::move(images)}, quantity);
+    add_images(baked, stem, std::move(images), quantity);
   }
 
  private:
@@ -116,6 +116,14 @@ class Files {
     artifact.attributes = {{"kiln:bake", "environment"}, {"kiln:quantity", quantity}};
     if (recipe_.format.name == "ktx1") artifact.attributes = {{"sh", harmonics_text()}};
     return artifact;
+  }
+
+  void add_texture(Baked& baked, const std::string& stem, std::vector<std::vector<Layers>> levels,
+                   const std::string& quantity) const {
+    Artifact artifact = make(stem, quantity);
+    artifact.texture =
+        TextureProduct{{std::move(levels)}, recipe_.zstd, recipe_.format.at_nodes, irradiance_};
+    baked.artifacts.push_back(std::move(artifact));
   }
 
   void add_images(Baked& baked, const std::string& stem, std::vector<Layers> images,
@@ -268,12 +276,12 @@ Baked EnvironmentBake::bake(const Settings& settings, const Ingredients& ingredi
   add_text(baked, "env", describe(recipe, light, computed, loss));
   const Files files(recipe, light);
   if (!recipe.preset.skybox.empty()) {
-    files.add(baked, recipe.preset.skybox, {computed.specular.front()}, "radiance");
+    files.add_level(baked, recipe.preset.skybox, computed.specular.front(), "radiance");
   }
-  files.add(baked, recipe.preset.specular, std::move(computed.specular), "radiance");
+  files.add_chain(baked, recipe.preset.specular, std::move(computed.specular), "radiance");
   if (recipe.format.name != "env") {  // which holds irradiance beside the chain
-    files.add(baked, recipe.preset.irradiance, {std::move(computed.irradiance)},
-              "irradiance over pi");
+    files.add_level(baked, recipe.preset.irradiance, std::move(computed.irradiance),
+                    "irradiance over pi");
   }
   return baked;
 }
