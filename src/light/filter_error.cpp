@@ -9,20 +9,24 @@
 namespace kiln {
 namespace {
 
-constexpr std::uint32_t spread_texels = 10;
+// Of large sources fewer, so that checking does not take longer than filtering.
+std::uint32_t spread_texels(Size source) {
+  constexpr long long budget = 10LL * 1024 * 512;
+  return static_cast<std::uint32_t>(std::clamp(budget / area(source), 3LL, 10LL));
+}
 
 struct TexelAt {
   int image, x, y;
 };
 
 // Texels spread over all images by a hash, the same for every run.
-std::vector<TexelAt> spread_over(const FilteredLevel& level) {
+std::vector<TexelAt> spread_over(const FilteredLevel& level, std::uint32_t count) {
   const Size size = level.images.front().size;
   const auto pick = [](std::uint32_t number, int below) {
     return static_cast<int>(mix_bits(number) % static_cast<std::uint32_t>(below));
   };
   std::vector<TexelAt> texels;
-  for (std::uint32_t i = 0; i < spread_texels; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     texels.push_back({static_cast<int>(i % level.images.size()), pick(2 * i, size.width),
                       pick(2 * i + 1, size.height)});
   }
@@ -45,11 +49,11 @@ TexelAt brightest_of(const FilteredLevel& level) {
   return best;
 }
 
-std::vector<TexelAt> choose_texels(const FilteredLevel& level) {
-  std::vector<TexelAt> texels = spread_over(level);
+std::vector<TexelAt> choose_texels(const FilteredLevel& level, std::uint32_t spread) {
+  std::vector<TexelAt> texels = spread_over(level, spread);
   const TexelAt best = brightest_of(level);
   const Size size = level.images.front().size;
-  for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+  for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, -1}}) {
     const TexelAt at{best.image, best.x + dx, best.y + dy};
     const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
     if (inside) texels.push_back(at);
@@ -66,10 +70,11 @@ Vec3<double> direction_at(const FilteredLevel& level, const TexelAt& at) {
 std::vector<FilterError> filter_errors(const Prefilter& prefilter,
                                        const std::vector<FilteredLevel>& levels,
                                        double mean_radiance) {
+  const std::uint32_t spread = spread_texels(prefilter.source_size());
   std::vector<LobeProbe> probes;
   std::vector<std::vector<TexelAt>> texels;
   for (const FilteredLevel& level : levels) {
-    texels.push_back(choose_texels(level));
+    texels.push_back(choose_texels(level, spread));
     probes.push_back({level.lobe, {}});
     for (const TexelAt& at : texels.back()) {
       probes.back().directions.push_back(direction_at(level, at));

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int lanes = lane_count<WideDouble>;
 
-// Rows of the grid per band: at 1.5 the 8-point interpolation of the highest wave errs by 2 %, and
+// Rows of the grid per band: at 1.4 the 8-point interpolation of the highest wave errs by 3 %, and
 // the kernel has damped it to 1e-4 by then.
-constexpr double rows_per_band = 1.5;
+constexpr double rows_per_band = 1.4;
 constexpr int smallest_grid = 32;
 
 int rows_for(int order) {

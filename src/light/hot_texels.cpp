@@ -27,8 +27,15 @@ double sum_of_magnitudes(const Plane& plane, int y) {
 }
 
 bool any_above(const Plane& plane, int y, float limit) {
-  bool found = false;
-  for (const float value : plane.texels_of_row(y)) found |= std::abs(value) > limit;
+  constexpr int lanes = lane_count<WideFloat>;
+  const float* row = plane.row(y);
+  WideFloat most(0.0f);
+  int x = 0;
+  for (; x + lanes <= plane.width(); x += lanes) {
+    most = max(most, abs(load_lanes<WideFloat>(row + x)));
+  }
+  bool found = any(most > WideFloat(limit));
+  for (; x < plane.width(); ++x) found |= std::abs(row[x]) > limit;
   return found;
 }
 

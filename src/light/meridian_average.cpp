@@ -10,7 +10,7 @@
 namespace kiln {
 namespace {
 
-constexpr int columns_at_once = 16;
+constexpr int rows_at_once = 16;
 // Strips of a side face between two meridians, in each of which edges between texels are level.
 constexpr int least_strips = 256;
 
@@ -73,7 +73,7 @@ std::vector<Edge> edges_of_side(const Band& band, int size, double from_rad, dou
 /// Source columns that a column overlaps, and their shares of it.
 struct Overlap {
   std::vector<int> columns;
-  std::vector<double> shares;
+  std::vector<float> shares;
 };
 
 Overlap overlap_of(int width, double from_u, double to_u) {
@@ -81,7 +81,8 @@ Overlap overlap_of(int width, double from_u, double to_u) {
   Overlap overlap;
   for (int x = static_cast<int>(std::floor(from)); x < to; ++x) {
     overlap.columns.push_back((x % width + width) % width);
-    overlap.shares.push_back((std::min(x + 1.0, to) - std::max<double>(x, from)) / (to - from));
+    overlap.shares.push_back(
+        static_cast<float>((std::min(x + 1.0, to) - std::max<double>(x, from)) / (to - from)));
   }
   return overlap;
 }
@@ -101,23 +102,58 @@ struct Source {
   }
 };
 
-// Running sums over z of a column's share of the source: [band rows + 1].
-std::vector<double> running_sums(const Source& source, size_t color, const Overlap& overlap) {
-  const Band& band = source.band;
-  const Plane& plane = *source.image.planes[color];
-  std::vector<double> sums{0};
-  sums.reserve(band.edges.size());
-  for (int row = 0; row < band.count; ++row) {
-    const auto at = static_cast<size_t>(row);
-    const float* texels = plane.row(band.first + row);
-    const float most = source.most[color][at];
-    double value = 0;
-    for (size_t i = 0; i < overlap.shares.size(); ++i) {
-      value += overlap.shares[i] * std::clamp(texels[overlap.columns[i]], -most, most);
-    }
-    sums.push_back(fma(value, band.edges[at] - band.edges[at + 1], sums.back()));
+/// What lies between two meridians: the edges of the texels there.
+struct Strip {
+  double from_u, to_u;  ///< [turn]
+  const std::vector<Edge>& edges;
+};
+
+/// The source as it is seen in strips: [color][strip][row of the band].
+struct StripRows {
+  size_t rows = 0;
+  std::array<std::vector<float>, 3> values;
+
+  const float* of(size_t color, size_t strip) const { return values[color].data() + strip * rows; }
+};
+
+// A few rows of the source at a time, so that each is read once, and whole lines are written.
+StripRows seen_in(const Source& source, const std::vector<Strip>& strips) {
+  std::vector<Overlap> overlaps;
+  overlaps.reserve(strips.size());
+  for (const Strip& strip : strips) {
+    overlaps.push_back(overlap_of(source.image.size.width, strip.from_u, strip.to_u));
   }
-  return sums;
+  StripRows seen{static_cast<size_t>(source.band.count), {}};
+  for (auto& values : seen.values) values.resize(strips.size() * seen.rows);
+  const int blocks = (source.band.count + rows_at_once - 1) / rows_at_once;
+  for_rows(3 * blocks, [&](int task) {
+    const auto c = static_cast<size_t>(task / blocks);
+    const int first = task % blocks * rows_at_once;
+    const int end = std::min(first + rows_at_once, source.band.count);
+    for (size_t strip = 0; strip < overlaps.size(); ++strip) {
+      float* to = seen.values[c].data() + strip * seen.rows;
+      for (int row = first; row < end; ++row) {
+        const float* texels = source.image.planes[c]->row(source.band.first + row);
+        const float most = source.most[c][static_cast<size_t>(row)];
+        float value = 0;
+        for (size_t i = 0; i < overlaps[strip].shares.size(); ++i) {
+          const float texel = texels[overlaps[strip].columns[i]];
+          value = fma(overlaps[strip].shares[i], std::clamp(texel, -most, most), value);
+        }
+        to[row] = value;
+      }
+    }
+  });
+  return seen;
+}
+
+// Running sums over z: [rows + 1].
+void sum_up(const float* values, const Band& band, std::vector<double>& sums) {
+  sums.resize(band.edges.size());
+  sums[0] = 0;
+  for (size_t row = 0; row + 1 < band.edges.size(); ++row) {
+    sums[row + 1] = fma(values[row], band.edges[row] - band.edges[row + 1], sums[row]);
+  }
 }
 
 double sum_at(const std::vector<double>& sums, const Band& band, const Edge& edge) {
@@ -126,32 +162,37 @@ double sum_at(const std::vector<double>& sums, const Band& band, const Edge& edg
   return lerp(sums[row], sums[row + 1], (top - edge.z) / (top - bottom));
 }
 
-/// What lies between two meridians: the edges of the texels there.
-struct Strip {
-  double from_u, to_u;  ///< [turn]
-  const std::vector<Edge>& edges;
+/// Columns of images, each of the same number of strips.
+struct Columns {
+  struct Column {
+    Layers* image;
+    int x;
+  };
+  std::vector<Column> columns;
+  std::vector<Strip> strips;  ///< of the first column, of the second, ...
 };
 
-// Adds the power of a strip's texels, and how high they are, per unit of azimuth.
-void add_strip(const Source& source, size_t color, const Strip& strip, std::vector<double>& power,
-               std::vector<double>& heights) {
-  const double width = strip.to_u - strip.from_u;
-  const std::vector<double> sums =
-      running_sums(source, color, overlap_of(source.image.size.width, strip.from_u, strip.to_u));
-  double above = sum_at(sums, source.band, strip.edges[0]);
-  for (size_t y = 0; y < power.size(); ++y) {
-    const double below = sum_at(sums, source.band, strip.edges[y + 1]);
-    power[y] += width * (below - above);
-    heights[y] += width * (strip.edges[y].z - strip.edges[y + 1].z);
-    above = below;
-  }
-}
-
-void fill_column(const Source& source, const std::vector<Strip>& strips, int x, Layers& image) {
+// The power of a column's texels over how high they are.
+void fill_column(const Band& band, const Columns& columns, const StripRows& seen, size_t column) {
+  const size_t count = columns.strips.size() / columns.columns.size();
+  const auto [image, x] = columns.columns[column];
+  std::vector<double> sums, power, heights;
   for (size_t c = 0; c < 3; ++c) {
-    Plane& plane = image.layers[c].plane;
-    std::vector<double> power(static_cast<size_t>(plane.height())), heights(power.size());
-    for (const Strip& strip : strips) add_strip(source, c, strip, power, heights);
+    Plane& plane = image->layers[c].plane;
+    power.assign(static_cast<size_t>(plane.height()), 0.0);
+    heights = power;
+    for (size_t i = column * count; i < (column + 1) * count; ++i) {
+      const Strip& strip = columns.strips[i];
+      const double width = strip.to_u - strip.from_u;
+      sum_up(seen.of(c, i), band, sums);
+      double above = sum_at(sums, band, strip.edges[0]);
+      for (size_t y = 0; y < power.size(); ++y) {
+        const double below = sum_at(sums, band, strip.edges[y + 1]);
+        power[y] += width * (below - above);
+        heights[y] += width * (strip.edges[y].z - strip.edges[y + 1].z);
+        above = below;
+      }
+    }
     for (int y = 0; y < plane.height(); ++y) {
       const auto at = static_cast<size_t>(y);
       plane.at(x, y) = static_cast<float>(power[at] / heights[at]);
@@ -159,13 +200,30 @@ void fill_column(const Source& source, const std::vector<Strip>& strips, int x, 
   }
 }
 
-/// Runs fill(column) for each of `count` columns, neighbours on one thread.
-template <class Fill>
-void for_columns(int count, const Fill& fill) {
-  for_rows((count + columns_at_once - 1) / columns_at_once, [&](int group) {
-    const int end = std::min(count, (group + 1) * columns_at_once);
-    for (int x = group * columns_at_once; x < end; ++x) fill(x);
+void fill_columns(const Source& source, const Columns& columns) {
+  const StripRows seen = seen_in(source, columns.strips);
+  for_rows(static_cast<int>(columns.columns.size()), [&](int column) {
+    fill_column(source.band, columns, seen, static_cast<size_t>(column));
   });
+}
+
+/// The strips of a side face's columns, with what all four faces have in common.
+struct SideStrips {
+  std::vector<double> azimuths_rad;      ///< of the face, one more than there are strips
+  std::vector<std::vector<Edge>> edges;  ///< of each strip
+};
+
+SideStrips strips_of_side(const Band& band, int size) {
+  const int count = size * std::clamp(least_strips / size, 1, 8);
+  SideStrips strips;
+  for (int i = 0; i <= count; ++i) strips.azimuths_rad.push_back(std::atan(2.0 * i / count - 1));
+  strips.edges.resize(static_cast<size_t>(count));
+  for_rows(count, [&](int i) {
+    const auto at = static_cast<size_t>(i);
+    strips.edges[at] =
+        edges_of_side(band, size, strips.azimuths_rad[at], strips.azimuths_rad[at + 1]);
+  });
+  return strips;
 }
 
 }  // namespace
@@ -173,27 +231,19 @@ void for_columns(int count, const Fill& fill) {
 void average_over_sides(const ColorPlanes& source, const PowerLimit& limit,
                         std::vector<Layers>& faces) {
   const int size = faces.front().size.width;
-  const int strips_per_column = std::clamp(least_strips / size, 1, 8);
   const Source seen(source, source.size.height / 4, limit);
-  for_columns(size, [&](int x) {
-    std::vector<double> azimuths_rad;
-    for (int i = 0; i <= strips_per_column; ++i) {
-      const double s = 2 * (x + static_cast<double>(i) / strips_per_column) / size - 1;
-      azimuths_rad.push_back(std::atan(s));
+  const SideStrips strips = strips_of_side(seen.band, size);
+  Columns columns;
+  for (const Side& side : sides) {
+    for (int x = 0; x < size; ++x) {
+      columns.columns.push_back({&faces[static_cast<size_t>(side.face)], x});
     }
-    std::vector<std::vector<Edge>> edges;
-    for (size_t i = 0; i + 1 < azimuths_rad.size(); ++i) {
-      edges.push_back(edges_of_side(seen.band, size, azimuths_rad[i], azimuths_rad[i + 1]));
+    for (size_t i = 0; i < strips.edges.size(); ++i) {
+      columns.strips.push_back({side.middle - strips.azimuths_rad[i + 1] / (2 * pi),
+                                side.middle - strips.azimuths_rad[i] / (2 * pi), strips.edges[i]});
     }
-    for (const Side& side : sides) {
-      std::vector<Strip> strips;
-      for (size_t i = 0; i < edges.size(); ++i) {
-        strips.push_back({side.middle - azimuths_rad[i + 1] / (2 * pi),
-                          side.middle - azimuths_rad[i] / (2 * pi), edges[i]});
-      }
-      fill_column(seen, strips, x, faces[static_cast<size_t>(side.face)]);
-    }
-  });
+  }
+  fill_columns(seen, columns);
 }
 
 void average_over_latlong(const ColorPlanes& source, Layers& image) {
@@ -202,10 +252,12 @@ void average_over_latlong(const ColorPlanes& source, Layers& image) {
   std::vector<double> heights;
   for (int j = 0; j <= size.height; ++j) heights.push_back(std::cos(pi * j / size.height));
   const std::vector<Edge> edges = edges_at(seen.band, heights);
-  for_columns(size.width, [&](int x) {
-    fill_column(seen, {{static_cast<double>(x) / size.width, (x + 1.0) / size.width, edges}}, x,
-                image);
-  });
+  Columns columns;
+  for (int x = 0; x < size.width; ++x) {
+    columns.columns.push_back({&image, x});
+    columns.strips.push_back({static_cast<double>(x) / size.width, (x + 1.0) / size.width, edges});
+  }
+  fill_columns(seen, columns);
 }
 
 }  // namespace kiln

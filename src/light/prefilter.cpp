@@ -19,7 +19,7 @@ namespace {
 // less of a light is left in the expansion at all. Wider lobes spread what is neglected over more
 // of the sphere, so they may neglect more.
 constexpr double widest_cut_off = 3e-4;
-double sharpest_cut_off(double alpha) { return std::clamp(2e-6 / alpha, 2e-5, 1e-4); }
+double sharpest_cut_off(double alpha) { return std::clamp(1e-6 / alpha, 2e-5, 5e-5); }
 // Share of the power above which a texel is left out of the expansion, in units of alpha^2 of the
 // sharpest lobe: as much as makes that lobe's peak eight times the mean; and never more than this.
 constexpr double hot_threshold = 2;
@@ -39,10 +39,22 @@ PointMasses masses_of(Size size, const std::vector<HotTexel>& texels) {
   return masses;
 }
 
+bool any_negative(std::span<const float> values) {
+  constexpr size_t lanes = lane_count<WideFloat>;
+  WideFloat least(0.0f);
+  size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    least = min(least, load_lanes<WideFloat>(values.data() + i));
+  }
+  bool found = any(least < WideFloat(0.0f));
+  for (; i < values.size(); ++i) found |= values[i] < 0;
+  return found;
+}
+
 std::array<bool, 3> never_negative(const ColorPlanes& latlong) {
   const auto found = sum_rows(latlong.size.height, 3, [&](int y, std::vector<double>& negative) {
     for (size_t c = 0; c < 3; ++c) {
-      for (const float value : latlong.planes[c]->texels_of_row(y)) negative[c] += value < 0;
+      negative[c] = any_negative(latlong.planes[c]->texels_of_row(y)) ? 1 : 0;
     }
   });
   return {found[0] == 0, found[1] == 0, found[2] == 0};
@@ -130,6 +142,8 @@ Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
   made.expansion = analyse(made.source, limit, made.columns);
   made.never_negative = never_negative(made.source);
 }
+
+Size Prefilter::source_size() const { return expanded_->source.size; }
 
 Prefilter::~Prefilter() = default;
 Prefilter::Prefilter(Prefilter&&) noexcept = default;

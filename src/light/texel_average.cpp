@@ -6,6 +6,7 @@
 #include "hot_texels.h"
 #include "kiln/image/projection.h"
 #include "kiln/light/angles.h"
+#include "kiln/light/irradiance.h"
 #include "kiln/light/latlong_texels.h"
 #include "kiln/light/prefilter.h"
 #include "kiln/parallel/rows.h"
@@ -22,7 +23,6 @@ constexpr double hot_share = 1e-4;
 constexpr double hot_times_mean = 4;
 constexpr int points_of_hot_texel = 8;  // each way
 // Texels of the source, as it is looked up, to the widest texel of the layout.
-constexpr double points_per_source_texel = 2.3;
 constexpr double most_source_texels = 4;
 
 /// What hot texels have above the limit, dealt out to the texels that points in them lie in.
@@ -160,8 +160,7 @@ LatLongTexels within_limit(const Layers& latlong, const PowerLimit& limit,
 Points make_points(const Layers& latlong, const PowerLimit& limit, const std::vector<HotTexel>& hot,
                    double source_texels) {
   const int times = reduction_for(latlong.size, source_texels);
-  const int count =
-      std::max(1, static_cast<int>(std::ceil(points_per_source_texel * source_texels / times)));
+  const int count = std::max(1, static_cast<int>(std::ceil(1 + 1.5 * source_texels / times)));
   if (times == 1) return {within_limit(latlong, limit, hot), count};
   const Layers coarser = reduced(color_planes(latlong), limit, times);
   return {LatLongTexels(coarser, coarser.size.width, Pole::AcrossByHalfATurn), count};
@@ -257,6 +256,52 @@ double source_texels_of(const SphereGrid& grid, Size source) {
   return widest_rad * source.height / pi;
 }
 
+/// Exact solid angles of the texels of an image, or of any face [sr].
+std::vector<double> solid_angles_of(SphereLayout layout, Size size) {
+  std::vector<double> solid_angles(static_cast<size_t>(area(size)));
+  for_rows(size.height, [&](int y) {
+    for (int x = 0; x < size.width; ++x) {
+      solid_angles[static_cast<size_t>(y) * static_cast<size_t>(size.width) +
+                   static_cast<size_t>(x)] = layout == SphereLayout::Octahedral
+                                                 ? octahedral_texel_solid_angle(size.width, x, y)
+                                                 : cube_texel_solid_angle(size.width, x, y);
+    }
+  });
+  return solid_angles;
+}
+
+double power_of(const Plane& plane, const std::vector<double>& solid_angles) {
+  const auto sums = sum_rows(plane.height(), 1, [&](int y, std::vector<double>& row) {
+    const size_t first = static_cast<size_t>(y) * static_cast<size_t>(plane.width());
+    for (int x = 0; x < plane.width(); ++x) {
+      row[0] += plane.at(x, y) * solid_angles[first + static_cast<size_t>(x)];
+    }
+  });
+  return sums[0];
+}
+
+// Averages by points miss a little of the power, or find too much: they are scaled so that, with
+// the others, the whole is that of the source. Nothing is scaled where power nearly cancels.
+void keep_power(const Vec3<double>& mean, SphereLayout layout, const std::vector<bool>& by_points,
+                std::vector<Layers>& images) {
+  const std::vector<double> solid_angles = solid_angles_of(layout, images.front().size);
+  const std::array<double, 3> whole = {4 * pi * mean.x, 4 * pi * mean.y, 4 * pi * mean.z};
+  for (size_t c = 0; c < 3; ++c) {
+    double exact = 0, found = 0;
+    for (size_t i = 0; i < images.size(); ++i) {
+      (by_points[i] ? found : exact) += power_of(images[i].layers[c].plane, solid_angles);
+    }
+    const auto scale = static_cast<float>((whole[c] - exact) / found);
+    if (!(std::abs(scale - 1) < 0.01f)) continue;
+    for (size_t i = 0; i < images.size(); ++i) {
+      Plane& plane = images[i].layers[c].plane;
+      for (int y = 0; by_points[i] && y < plane.height(); ++y) {
+        for (int x = 0; x < plane.width(); ++x) plane.row(y)[x] *= scale;
+      }
+    }
+  }
+}
+
 bool is_side(CubeFace face) { return face != CubeFace::py && face != CubeFace::ny; }
 
 // Texels that are finer than the source's would show these as boxes: then all faces are looked up
@@ -275,13 +320,14 @@ void average_images(const Layers& latlong, const SphereGrid& grid, std::vector<L
   if (sides_apart) average_over_sides(source, limit, images);
   Spill spill(grid.layout, images);
   for (const HotTexel& texel : hot) spill.deal(latlong.size, texel, limit);
+  std::vector<bool> by_points;
   for (size_t i = 0; i < images.size(); ++i) {
     const int image = static_cast<int>(i);
-    if (!sides_apart || !is_side(static_cast<CubeFace>(i))) {
-      average_rows(points, grid, image, images[i]);
-    }
+    by_points.push_back(!sides_apart || !is_side(static_cast<CubeFace>(i)));
+    if (by_points[i]) average_rows(points, grid, image, images[i]);
     spill.add_to(image, images[i]);
   }
+  if (!grid.at_nodes) keep_power(mean_radiance(latlong), grid.layout, by_points, images);
 }
 
 }  // namespace

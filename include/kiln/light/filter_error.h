@@ -19,8 +19,8 @@ struct FilteredLevel {
   std::vector<Layers> images;
 };
 
-/// The error of each level by brute force over every texel of the source, at ten texels spread over
-/// the level, the brightest and those beside it.
+/// The error of each level by brute force over every texel of the source, at up to ten texels
+/// spread over the level, the brightest one and two beside it.
 /// @param mean_radiance  of the source, as luminance
 std::vector<FilterError> filter_errors(const Prefilter& prefilter,
                                        const std::vector<FilteredLevel>& levels,

@@ -53,6 +53,9 @@ class Prefilter {
   ~Prefilter();
   Prefilter(Prefilter&&) noexcept;
 
+  /// Of the source as it is filtered.
+  Size source_size() const;
+
   /// The filtered environment at the samples of a grid: one image or six faces.
   std::vector<Layers> filter(const Lobe& lobe, const SphereGrid& grid) const;
 

@@ -70,7 +70,7 @@ TEST(TexelAverage, KeepsTheMeanOverTheSphere) {
       }
       const double mean = mean_radiance(image).y;
       for (const int edge : {16, 32, 64}) {
-        EXPECT_NEAR(mean_of(average_over_texels(image, {layout, edge}), layout), mean, 2e-4 * mean)
+        EXPECT_NEAR(mean_of(average_over_texels(image, {layout, edge}), layout), mean, 1e-5 * mean)
             << sphere_layout_names[static_cast<size_t>(layout)] << " " << edge << " " << i;
       }
     }
