@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "bakes.h"
 #include "kiln/brdf/models.h"
@@ -136,64 +137,80 @@ std::string fresnel_text(const TableRecipe& recipe) {
 
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-void describe_axes(const Lut& lut, Attributes& attributes) {
+void describe_axes(const LutSource& lut, Attributes& attributes) {
   std::vector<std::string> axes;
-  for (size_t a = 0; a < lut.axes.size(); ++a) {
-    axes.push_back(
-        fmt::format("{}={} ({})", "xyz"[a], lut.axes[a].mapping.name, lut.axes[a].mapping.meaning));
+  for (size_t a = 0; a < lut.axes().size(); ++a) {
+    axes.push_back(fmt::format("{}={} ({})", "xyz"[a], lut.axes()[a].mapping.name,
+                               lut.axes()[a].mapping.meaning));
   }
   attributes.emplace_back("kiln:axes", fmt::format("{}", fmt::join(axes, ", ")));
-  attributes.emplace_back("kiln:alignment", lut.recipe.alignment == Alignment::Center
+  attributes.emplace_back("kiln:alignment", lut.recipe().alignment == Alignment::Center
                                                 ? "center: u = (i + 0.5) / N"
                                                 : "corner: u = i / (N - 1)");
-  attributes.emplace_back("kiln:origin", lut.recipe.origin == Origin::Top
+  attributes.emplace_back("kiln:origin", lut.recipe().origin == Origin::Top
                                              ? "top: the first row has the least u"
                                              : "bottom: the last row has the least u");
-  if (lut.recipe.depth > 1) {
-    attributes.emplace_back("kiln:depth", std::to_string(lut.recipe.depth));
+  if (lut.recipe().depth > 1) {
+    attributes.emplace_back("kiln:depth", std::to_string(lut.recipe().depth));
   }
 }
 
-Attributes describe_file(const Settings& settings, const Lut& lut) {
-  const Lobe& lobe = lut.recipe.models.lobe;
+Attributes describe_file(const Settings& settings, const LutSource& lut, const LutErrors& errors) {
+  const Lobe& lobe = lut.recipe().models.lobe;
   Attributes attributes = {
-      {"kiln:table", lut.recipe.table},
+      {"kiln:table", lut.recipe().table},
       {"kiln:models", fmt::format("distribution={} masking={} fresnel={}", lobe.distribution,
-                                  lobe.masking, fresnel_text(lut.recipe))}};
+                                  lobe.masking, fresnel_text(lut.recipe()))}};
   if (!settings.preset.empty()) attributes.emplace_back("kiln:preset", settings.preset);
   describe_axes(lut, attributes);
-  const std::vector<std::string> names = plane_names(lut.entries.size());
+  const std::vector<std::string> names = plane_names(lut.recipe().channels.size());
   for (size_t c = 0; c < names.size(); ++c) {
     attributes.emplace_back("kiln:channel_" + names[c],
-                            find_channel(lut.recipe.channels[c]).meaning);
+                            find_channel(lut.recipe().channels[c]).meaning);
   }
-  if (lut.fit_error > 0) {
+  if (errors.fit > 0) {
     attributes.emplace_back(
         "kiln:fit_error",
-        fmt::format("{:.3g}, mean share of light that the fit sends elsewhere", lut.fit_error));
+        fmt::format("{:.3g}, mean share of light that the fit sends elsewhere", errors.fit));
     return attributes;
   }
   attributes.emplace_back("kiln:entry_error",
                           fmt::format("{:.3g}, greatest of {} entries spread evenly, against a "
                                       "higher order",
-                                      lut.entry_error, lut.entries_checked));
+                                      errors.entry, errors.entries_checked));
   attributes.emplace_back(
       "kiln:lookup_error",
       fmt::format("{:.3g} for mu in [0.001,1], roughness in [0.01,1]; {:.3g} for mu in [0.05,1], "
                   "roughness in [0.1,1]; linear, clamped",
-                  lut.lookup_error, lut.lookup_error_inner));
+                  errors.lookup, errors.lookup_inner));
   return attributes;
 }
 
-Artifact make_artifact(const Settings& settings, const Lut& lut) {
+// Volumes too large to be made at once.
+ImageBands bands_of(const std::shared_ptr<LutSource>& lut) {
+  const Size slice = lut->recipe().size;
+  return {{slice.width, slice.height * lut->slices()},
+          plane_names(lut->recipe().channels.size()),
+          slice.height * lut->slices_at_once(),
+          [lut, slice](int first, int rows) {
+            return lut->image(first / slice.height, rows / slice.height);
+          }};
+}
+
+Artifact make_artifact(const Settings& settings, const std::shared_ptr<LutSource>& lut,
+                       const LutErrors& errors) {
   Artifact artifact;
-  artifact.image = to_image(lut);
-  artifact.attributes = describe_file(settings, lut);
-  artifact.depth = lut.recipe.depth;
-  for (const TableAxis& axis : lut.axes) {
+  if (lut->slices_at_once() == lut->slices()) {
+    artifact.image = lut->image(0, lut->slices());
+  } else {
+    artifact.bands = bands_of(lut);
+  }
+  artifact.attributes = describe_file(settings, *lut, errors);
+  artifact.depth = lut->recipe().depth;
+  for (const TableAxis& axis : lut->axes()) {
     artifact.axes.emplace_back(quantity_name(axis.mapping.quantity), axis.coordinates);
   }
-  for (const std::string& channel : lut.recipe.channels) {
+  for (const std::string& channel : lut->recipe().channels) {
     artifact.channel_names.push_back(find_channel(channel).name);
   }
   if (!settings.preset.empty()) {
@@ -233,15 +250,15 @@ Needs LutBake::needs(const Settings& settings) {
 }
 
 Baked LutBake::bake(const Settings& settings, const Ingredients&) {
-  const Lut lut = build_lut(resolve(settings));
+  const auto lut = std::make_shared<LutSource>(resolve(settings));
+  const LutErrors errors = errors_of(*lut);
   Baked baked;
-  baked.figures = {{"entry error", lut.entry_error},
-                   {"lookup error", lut.lookup_error},
-                   {"lookup error, mu >= 0.05 and roughness >= 0.1", lut.lookup_error_inner}};
-  if (lut.fit_error > 0)
-    baked.figures = {{"fit error, mean share of light elsewhere", lut.fit_error}};
+  baked.figures = {{"entry error", errors.entry},
+                   {"lookup error", errors.lookup},
+                   {"lookup error, mu >= 0.05 and roughness >= 0.1", errors.lookup_inner}};
+  if (errors.fit > 0) baked.figures = {{"fit error, mean share of light elsewhere", errors.fit}};
   if (!settings.preset.empty()) baked.notes = find_lut_preset(settings.preset).cautions;
-  baked.artifacts.push_back(make_artifact(settings, lut));
+  baked.artifacts.push_back(make_artifact(settings, lut, errors));
   return baked;
 }
 
@@ -298,7 +315,8 @@ std::string lut_snippet(const LutWords& words, const std::string& language, cons
   facts.name = "--snippet";
   facts.choices = languages;
   const auto chosen = static_cast<SnippetLanguage>(parse_word(facts, language));
-  return lookup_snippet(build_lut(resolve(settings_of(words))), chosen, file, rgbd);
+  LutSource lut(resolve(settings_of(words)));
+  return lookup_snippet(lut, chosen, file, rgbd);
 }
 
 std::vector<NamedText> list_tables() {

@@ -125,14 +125,19 @@ WriteOptions write_options(const Plan& plan, const Task& task, const Artifact& a
   return options;
 }
 
+WriteFacts write_product(const Plan& plan, const Task& task, const Artifact& artifact,
+                         const fs::path& path, const WriteOptions& options,
+                         const ColorConfig& config) {
+  if (area(artifact.bands.size) > 0) return write_bands(path, artifact.bands, options);
+  if (task.product != Product::Picture) return write_image(path, artifact.image, options);
+  const std::string_view format = writable_format(path).name;
+  return write_image(path, picture_for(plan, task, artifact.image, format, config), options);
+}
+
 std::string write_image_of(const Plan& plan, const Task& task, const Artifact& artifact,
                            const fs::path& path, const ColorConfig& config) {
-  const std::string_view format = writable_format(path).name;
   const WriteOptions options = write_options(plan, task, artifact, path);
-  const WriteFacts facts =
-      task.product == Product::Picture
-          ? write_image(path, picture_for(plan, task, artifact.image, format, config), options)
-          : write_image(path, artifact.image, options);
+  const WriteFacts facts = write_product(plan, task, artifact, path, options, config);
   if (facts.clamped == 0) return "";
   return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
                      path.filename().string(), facts.clamped, pixel_type_name(options.type),

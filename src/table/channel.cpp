@@ -35,9 +35,21 @@ std::string key_of(const Lobe& lobe, const FresnelChoice& fresnel) {
 
 LobeIntegrals& LobeCache::of(const Lobe& lobe, const FresnelChoice& fresnel) {
   const std::string key = key_of(lobe, fresnel);
-  const auto found = lobes_.find(key);
-  if (found != lobes_.end()) return found->second;
-  return lobes_.emplace(key, LobeIntegrals(lobe, fresnel, quality_, floor_mu_)).first->second;
+  auto found = lobes_.find(key);
+  if (found == lobes_.end()) {
+    found = lobes_.emplace(key, Held{LobeIntegrals(lobe, fresnel, quality_, floor_mu_)}).first;
+  }
+  found->second.used = true;
+  return found->second.lobe;
+}
+
+void LobeCache::keep() {
+  for (auto& [key, held] : lobes_) held.kept = true;
+}
+
+void LobeCache::drop_unused() {
+  std::erase_if(lobes_, [](const auto& entry) { return !entry.second.used && !entry.second.kept; });
+  for (auto& [key, held] : lobes_) held.used = false;
 }
 
 const std::vector<ChannelFacts>& all_channels() {

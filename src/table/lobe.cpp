@@ -114,10 +114,15 @@ struct LobeIntegrals::Work {
 
   std::vector<LobeTerms> direct(std::span<const double> mus, std::span<const double> alphas,
                                 Quality wanted) const {
-    std::vector<LobeTerms> terms(mus.size() * alphas.size());
-    for_rows(static_cast<int>(mus.size()), [&](int i) {
-      const std::vector<LobeTerms> one = column(mus[i], alphas, wanted);
-      for (size_t j = 0; j < alphas.size(); ++j) terms[j * mus.size() + i] = one[j];
+    constexpr size_t least_rows = 16;  // few directions are cut into runs, to occupy all threads
+    const size_t n = std::max<size_t>(mus.size(), 1), widths = alphas.size();
+    const size_t runs = std::clamp<size_t>(least_rows / n, 1, std::max<size_t>(widths, 1));
+    std::vector<LobeTerms> terms(mus.size() * widths);
+    for_rows(static_cast<int>(mus.size() * runs), [&](int row) {
+      const size_t i = row % n, run = row / n;
+      const size_t first = widths * run / runs, last = widths * (run + 1) / runs;
+      const auto one = column(mus[i], alphas.subspan(first, last - first), wanted);
+      for (size_t j = first; j < last; ++j) terms[j * n + i] = one[j - first];
     });
     return terms;
   }
@@ -188,16 +193,26 @@ LobeTerms LobeIntegrals::at(const LobePoint& point) const {
   return work_->integrate(make_view_rule(point.mu, order.azimuths), point, order.slopes);
 }
 
-std::vector<LobeTerms> LobeIntegrals::grid(std::span<const double> mus,
-                                           std::span<const double> alphas) {
+GridMeans LobeIntegrals::means_for(std::span<const double> mus,
+                                   std::span<const double> alphas) const {
   constexpr size_t worth_a_field = 4000;
   const bool inside =
       std::all_of(mus.begin(), mus.end(), [&](double mu) { return mu >= work_->floor_mu; });
-  if (mus.size() * alphas.size() < worth_a_field || !inside || work_->field_failed) {
+  return inside && mus.size() * alphas.size() >= worth_a_field ? GridMeans::Field
+                                                               : GridMeans::Quadrature;
+}
+
+std::vector<LobeTerms> LobeIntegrals::grid(std::span<const double> mus,
+                                           std::span<const double> alphas) {
+  return grid(mus, alphas, means_for(mus, alphas));
+}
+
+std::vector<LobeTerms> LobeIntegrals::grid(std::span<const double> mus,
+                                           std::span<const double> alphas, GridMeans means) {
+  if (means == GridMeans::Field && !work_->field && !work_->field_failed) work_->build_field();
+  if (means == GridMeans::Quadrature || work_->field_failed) {
     return work_->direct(mus, alphas, work_->quality);
   }
-  if (!work_->field) work_->build_field();
-  if (work_->field_failed) return work_->direct(mus, alphas, work_->quality);
   std::vector<LobeTerms> terms = work_->field->grid(mus, alphas);
   work_->replace_mirrors(mus, alphas, terms);
   return terms;

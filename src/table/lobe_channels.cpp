@@ -20,8 +20,9 @@ std::vector<double> alphas_of(const TableGrid& grid) {
 template <class Pick>
 std::vector<double> fill_from(TableContext& context, const Lobe& lobe, const FresnelChoice& fresnel,
                               Pick&& pick) {
-  const auto terms =
-      context.lobes.of(lobe, fresnel).grid(context.grid.of(Mu), alphas_of(context.grid));
+  LobeIntegrals& integrals = context.lobes.of(lobe, fresnel);
+  const GridMeans means = integrals.means_for(context.whole.of(Mu), alphas_of(context.whole));
+  const auto terms = integrals.grid(context.grid.of(Mu), alphas_of(context.grid), means);
   std::vector<double> values;
   values.reserve(terms.size());
   for (const LobeTerms& one : terms) values.push_back(pick(one));

@@ -11,15 +11,15 @@
 namespace kiln {
 namespace {
 
-std::string function_name(const Lut& lut) {
-  std::string name = "kiln_" + lut.recipe.table;
+std::string function_name(const LutSource& lut) {
+  std::string name = "kiln_" + lut.recipe().table;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-std::string arguments(const Lut& lut) {
+std::string arguments(const LutSource& lut) {
   std::string text;
-  for (const TableAxis& axis : lut.axes) {
+  for (const TableAxis& axis : lut.axes()) {
     text += ", float " + quantity_name(axis.mapping.quantity);
   }
   return text;
@@ -32,33 +32,33 @@ std::string position(const TableAxis& axis) {
 }
 
 // The same in texture coordinates: entries on the borders lie half a texel inside.
-std::string coordinate(const Lut& lut, const TableAxis& axis) {
-  if (lut.recipe.alignment == Alignment::Center) return position(axis);
+std::string coordinate(const LutSource& lut, const TableAxis& axis) {
+  if (lut.recipe().alignment == Alignment::Center) return position(axis);
   return fmt::format("(({}) * {}.0 + 0.5) / {}.0", position(axis), axis.count - 1, axis.count);
 }
 
-std::string described(const Lut& lut, const std::string& file) {
+std::string described(const LutSource& lut, const std::string& file) {
   std::vector<std::string> axes, meanings;
-  for (size_t a = 0; a < lut.axes.size(); ++a) {
-    axes.push_back(fmt::format("{}: {}", "xyz"[a], lut.axes[a].mapping.meaning));
+  for (size_t a = 0; a < lut.axes().size(); ++a) {
+    axes.push_back(fmt::format("{}: {}", "xyz"[a], lut.axes()[a].mapping.meaning));
   }
-  for (const std::string& channel : lut.recipe.channels) {
+  for (const std::string& channel : lut.recipe().channels) {
     meanings.push_back(find_channel(channel).meaning);
   }
-  const Lobe& lobe = lut.recipe.models.lobe;
-  return fmt::format("// {}: {} of {} with {}.\n// {}.\n// Channels: {}.\n", file, lut.recipe.table,
-                     lobe.distribution, lobe.masking, fmt::join(axes, "; "),
+  const Lobe& lobe = lut.recipe().models.lobe;
+  return fmt::format("// {}: {} of {} with {}.\n// {}.\n// Channels: {}.\n", file,
+                     lut.recipe().table, lobe.distribution, lobe.masking, fmt::join(axes, "; "),
                      fmt::join(meanings, "; "));
 }
 
-std::vector<std::vector<double>> check_points(const Lut& lut) {
+std::vector<std::vector<double>> check_points(const LutSource& lut) {
   constexpr double positions[5][3] = {
       {0.1, 0.2, 0.3}, {0.3, 0.5, 0.6}, {0.5, 0.35, 0.45}, {0.7, 0.8, 0.15}, {0.95, 0.65, 0.85}};
   std::vector<std::vector<double>> points;
   for (const auto& row : positions) {
     std::vector<double> point;
-    for (size_t a = 0; a < lut.axes.size(); ++a) {
-      const double value = lut.axes[a].mapping.value(row[a]);
+    for (size_t a = 0; a < lut.axes().size(); ++a) {
+      const double value = lut.axes()[a].mapping.value(row[a]);
       point.push_back(std::round(value * 1e4) / 1e4);
     }
     points.push_back(point);
@@ -66,35 +66,34 @@ std::vector<std::vector<double>> check_points(const Lut& lut) {
   return points;
 }
 
-std::string checks(const Lut& lut) {
+std::string checks(LutSource& lut) {
   std::string text = "// Check, to the rounding of the file's type:\n";
   for (const auto& point : check_points(lut)) {
-    std::vector<double> values;
-    for (size_t c = 0; c < lut.entries.size(); ++c) values.push_back(look_up(lut, c, point));
+    const std::vector<double> values = look_up(lut, point);
     text += fmt::format("//   {}({}) = {:.6f}\n", function_name(lut), fmt::join(point, ", "),
                         fmt::join(values, ", "));
   }
   return text;
 }
 
-void check_sampled(const Lut& lut) {
-  if (lut.entries.size() > 4) {
-    throw Error(Fault::Usage,
-                fmt::format("snippet: found {} channels, a sampler holds 4", lut.entries.size()));
+void check_sampled(const LutSource& lut) {
+  if (lut.recipe().channels.size() > 4) {
+    throw Error(Fault::Usage, fmt::format("snippet: found {} channels, a sampler holds 4",
+                                          lut.recipe().channels.size()));
   }
 }
 
-std::string sampled_coordinates(const Lut& lut) {
+std::string sampled_coordinates(const LutSource& lut) {
   std::vector<std::string> parts;
-  for (const TableAxis& axis : lut.axes) parts.push_back(coordinate(lut, axis));
+  for (const TableAxis& axis : lut.axes()) parts.push_back(coordinate(lut, axis));
   if (parts.size() == 1) parts.emplace_back("0.5");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string glsl(const Lut& lut, bool rgbd) {
+std::string glsl(const LutSource& lut, bool rgbd) {
   check_sampled(lut);
-  const bool solid = lut.axes.size() > 2;
-  const size_t n = lut.entries.size();
+  const bool solid = lut.axes().size() > 2;
+  const size_t n = lut.recipe().channels.size();
   const std::string type = n == 1 ? "float" : fmt::format("vec{}", n);
   const std::string swizzle = std::string("rgba").substr(0, n);
   std::string text =
@@ -112,10 +111,10 @@ std::string glsl(const Lut& lut, bool rgbd) {
   return text;
 }
 
-std::string hlsl(const Lut& lut, bool rgbd) {
+std::string hlsl(const LutSource& lut, bool rgbd) {
   check_sampled(lut);
-  const bool solid = lut.axes.size() > 2;
-  const size_t n = lut.entries.size();
+  const bool solid = lut.axes().size() > 2;
+  const size_t n = lut.recipe().channels.size();
   const std::string type = n == 1 ? "float" : fmt::format("float{}", n);
   const std::string swizzle = std::string("rgba").substr(0, n);
   std::string text =
@@ -131,13 +130,13 @@ std::string hlsl(const Lut& lut, bool rgbd) {
 }
 
 // Its own linear filtering over an array of decoded floats.
-std::string cpp(const Lut& lut) {
-  const size_t n = lut.entries.size();
+std::string cpp(const LutSource& lut) {
+  const size_t n = lut.recipe().channels.size();
   std::vector<int> counts;
   std::vector<std::string> places;
-  for (const TableAxis& axis : lut.axes) {
+  for (const TableAxis& axis : lut.axes()) {
     counts.push_back(axis.count);
-    const bool center = lut.recipe.alignment == Alignment::Center;
+    const bool center = lut.recipe().alignment == Alignment::Center;
     places.push_back(center ? fmt::format("({}) * {} - 0.5", position(axis), axis.count)
                             : fmt::format("({}) * {}", position(axis), axis.count - 1));
   }
@@ -149,9 +148,9 @@ std::string cpp(const Lut& lut) {
   text += fmt::format("  const int count[] = {{{}}};\n", fmt::join(counts, ", "));
   text += fmt::format("  const double place[] = {{{}}};\n", fmt::join(places, ", "));
   text += fmt::format("  std::array<float, {}> sum{{}};\n", n);
-  text += fmt::format("  for (int corner = 0; corner < {}; ++corner) {{\n", 1 << lut.axes.size());
+  text += fmt::format("  for (int corner = 0; corner < {}; ++corner) {{\n", 1 << lut.axes().size());
   text += "    double weight = 1;\n    long index = 0, step = 1;\n";
-  text += fmt::format("    for (int a = 0; a < {}; ++a) {{\n", lut.axes.size());
+  text += fmt::format("    for (int a = 0; a < {}; ++a) {{\n", lut.axes().size());
   text +=
       "      const double at = std::clamp(place[a], 0.0, count[a] - 1.0);\n"
       "      const int first = std::min(static_cast<int>(at), std::max(count[a] - 2, 0));\n"
@@ -169,7 +168,7 @@ std::string cpp(const Lut& lut) {
 
 }  // namespace
 
-std::string lookup_snippet(const Lut& lut, SnippetLanguage language, const std::string& file,
+std::string lookup_snippet(LutSource& lut, SnippetLanguage language, const std::string& file,
                            bool rgbd) {
   std::string code;
   if (language == SnippetLanguage::Glsl) code = glsl(lut, rgbd);

@@ -124,7 +124,7 @@ std::vector<std::vector<double>> fill_contents(const Kind& kind, const Coordinat
   for (double& mu : grid.of(Quantity::Mu)) mu = std::max(mu, least_mu);
   LobeCache lobes(Quality::Table, least_mu);
   const TableModels models;
-  TableContext context{models, grid, lobes};
+  TableContext context{models, grid, grid, lobes};
   std::vector<std::vector<double>> values;
   values.reserve(wanted.size());
   for (const int content : wanted) values.push_back(kind.contents[content].fill(context));

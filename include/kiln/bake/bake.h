@@ -10,6 +10,7 @@
 
 #include "kiln/bake/surface_choice.h"
 #include "kiln/core/param.h"
+#include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
 #include "kiln/image/texture.h"
 #include "kiln/math/vec.h"
@@ -75,10 +76,13 @@ struct Artifact {
   std::optional<TextureProduct> texture;  ///< when there, this is the product
   std::string text;                       ///< when not empty, this is the product
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
-  std::string preferred_type;  ///< "half": taken where the format holds it and none is asked for
-  int depth = 1;               ///< slices of a volume, one below the other in the image
-  std::vector<std::pair<std::string, std::vector<double>>> axes;  ///< of tables: x, y, z
-  std::vector<std::string> channel_names;                         ///< of tables: "scale", "bias"
+  std::string preferred_type =
+      {};         ///< "half": taken where the format holds it and none is asked for
+  int depth = 1;  ///< slices of a volume, one below the other in the image
+  std::vector<std::pair<std::string, std::vector<double>>> axes = {};  ///< of tables: x, y, z
+  std::vector<std::string> channel_names = {};  ///< of tables: "scale", "bias"
+  /// In place of the image, where it has a size: what need not be held whole. Numbers only.
+  ImageBands bands = {};
 };
 
 struct Baked {

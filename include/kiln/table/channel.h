@@ -34,16 +34,31 @@ class LobeCache {
   LobeIntegrals& of(const Lobe& lobe, const FresnelChoice& fresnel);
   Quality quality() const { return quality_; }
 
+  /// What there is stays for good.
+  void keep();
+  /// Drops what nobody asked for since the last time, but for what is kept.
+  void drop_unused();
+  size_t size() const { return lobes_.size(); }
+
  private:
+  struct Held {
+    LobeIntegrals lobe;
+    bool used = true;
+    bool kept = false;
+  };
+
   Quality quality_;
   double floor_mu_;
-  std::map<std::string, LobeIntegrals> lobes_;
+  std::map<std::string, Held> lobes_;
 };
 
 /// What a channel is filled from.
 struct TableContext {
   const TableModels& models;
   const TableGrid& grid;
+  /// What the grid is part of; parts are made by the means that fit the whole, so that their values
+  /// are its own to the bit.
+  const TableGrid& whole;
   LobeCache& lobes;
   /// Values that several channels share, made by whichever comes first.
   std::map<std::string, std::vector<std::vector<double>>> shared = {};
@@ -57,7 +72,8 @@ struct ChannelFacts {
   std::vector<Quantity> over;        ///< what it depends on
   /// Values on the grid; the first quantity of `over` runs fastest.
   std::vector<double> (*fill)(TableContext&) = nullptr;
-  /// A fit, not an integral: there is no truth to compare it with, only how well it fits.
+  /// A fit, not an integral: there is no truth to compare it with, only how well it fits. Each
+  /// starts from another, so that a grid is only filled as a whole.
   bool fitted = false;
 };
 

@@ -62,6 +62,12 @@ struct LobePoint {
   double azimuth = 0;  ///< of the direction, from the x axis [rad]
 };
 
+/// How a grid is filled.
+enum class GridMeans {
+  Quadrature,  ///< an integral an entry
+  Field        ///< between Chebyshev nodes, where lobes are smooth enough
+};
+
 class SmoothField;
 
 /// Integrals of one lobe. Large grids of smooth lobes are interpolated between Chebyshev nodes,
@@ -79,6 +85,11 @@ class LobeIntegrals {
   LobeTerms at(const LobePoint& point) const;
   /// Isotropic, [alpha][mu].
   std::vector<LobeTerms> grid(std::span<const double> mus, std::span<const double> alphas);
+  /// The same by given means: with those of a whole grid, part of it is the same to the bit.
+  std::vector<LobeTerms> grid(std::span<const double> mus, std::span<const double> alphas,
+                              GridMeans means);
+  /// What grid() does with these.
+  GridMeans means_for(std::span<const double> mus, std::span<const double> alphas) const;
   /// Average over directions, 2 INT_0^1 E(mu) mu dmu.
   LobeTerms average(double alpha) const;
 

@@ -13,7 +13,7 @@ enum class SnippetLanguage { Glsl, Hlsl, Cpp };
 /// @param file  name of the table's file, for the comment
 /// @param rgbd  stored as RGBD: to be decoded before use
 /// @error Fault::Usage where a sampler cannot hold the channels
-std::string lookup_snippet(const Lut& lut, SnippetLanguage language, const std::string& file,
+std::string lookup_snippet(LutSource& lut, SnippetLanguage language, const std::string& file,
                            bool rgbd);
 
 }  // namespace kiln

@@ -22,6 +22,31 @@ TEST(LutBake, SaysInTheFileWhatTheTableIsAndHowWrong) {
   }
 }
 
+TEST(LutBake, HandsLargeVolumesOverInBandsOfSlices) {
+  const auto bake = [](const std::string& depth) {
+    const auto recipe = make_recipe("lut");
+    for (const auto& [key, text] : LutWords{{"table", "ior"},
+                                            {"axes", "f0,mu,roughness"},
+                                            {"channels", "scale,one"},
+                                            {"size", "4x600"},
+                                            {"depth", depth}}) {
+      recipe->set(key, text);
+    }
+    return recipe->bake({}).artifacts.at(0);
+  };
+  const Artifact small = bake("3");
+  EXPECT_EQ(small.image.size, (Size{4, 1800}));
+  EXPECT_EQ(small.bands.size, Size{});
+  const Artifact large = bake("120");
+  EXPECT_TRUE(large.image.layers.empty());
+  EXPECT_EQ(large.bands.size, (Size{4, 72000}));
+  EXPECT_EQ(large.bands.names, (std::vector<std::string>{"R", "G"}));
+  EXPECT_EQ(large.bands.band_rows % 600, 0);
+  const Layers band = large.bands.make(0, large.bands.band_rows);
+  EXPECT_EQ(band.size, (Size{4, large.bands.band_rows}));
+  EXPECT_EQ(band.layers.at(1).name, "G");
+}
+
 TEST(LutBake, IntegratesAtOnePointToItsClosedForm) {
   const auto values = integrate_at({{"table", "directional-albedo"}}, {0.3, 1.0});
   EXPECT_EQ(values.at(0).channel, "total");

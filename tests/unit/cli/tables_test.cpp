@@ -40,6 +40,30 @@ TEST(LutVerb, WritesTheCoordinatesOfEveryEntryIntoCsv) {
                                          HasSubstr("\n0.25,0.25,"), HasSubstr("\n0.75,0.75,")));
 }
 
+TEST(LutVerb, WritesLargeVolumesAFewSlicesAtATimeForAnyNumberOfThreads) {
+  const Workshop shop;
+  std::vector<Layers> images;
+  for (const char* name : {"a.exr", "b.exr", "a.tif", "a.dds", "a.ktx2", "a.npy"}) {
+    const std::string file = (shop / name).string();
+    const Outcome outcome = kiln(
+        shop, {"lut", "ior", "--axes", "f0,mu,roughness", "--channels", "scale", "--size", "6x500",
+               "--depth", "100", "-j", name[0] == 'a' ? "1" : "3", "--json", "-o", file});
+    EXPECT_EQ(outcome.code, 0) << name << outcome.err;
+    images.push_back(read_image(file).image);
+    ASSERT_EQ(images.back().size, (Size{6, 50000}));
+    for (int y = 0; y < 50000; ++y) {
+      for (int x = 0; x < 6; ++x) {
+        ASSERT_EQ(images.back().layers[0].plane.at(x, y), images[0].layers[0].plane.at(x, y))
+            << name << " " << x << " " << y;
+      }
+    }
+  }
+  EXPECT_EQ(test::text_of(shop / "a.exr"), test::text_of(shop / "b.exr"));
+  const auto json = nlohmann::json::parse(test::text_of(shop / "a.dds.json"));
+  EXPECT_EQ(json["kiln:depth"], "100");
+  EXPECT_THAT(json["kiln:entry_error"].get<std::string>(), HasSubstr("greatest of 125 entries"));
+}
+
 TEST(LutVerb, TakesThePresetsTypeWhereTheFormatHoldsIt) {
   const Workshop shop;
   const std::string exr = (shop / "a.exr").string(), png = (shop / "a.png").string();
