@@ -6,49 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "kiln/core/error.h"
+#include "packed_texel.h"
 #include "samples.h"
 
 namespace kiln::io {
 namespace {
-
-bool is_packed(Coding coding) {
-  return coding == Coding::Rgb10a2 || coding == Coding::R11g11b10f || coding == Coding::Rgb9e5;
-}
-
-// 5 bits of exponent, bias 15, over `mantissa_bits` of mantissa; no sign.
-float small_float(uint32_t bits, int mantissa_bits) {
-  const uint32_t exponent = bits >> mantissa_bits & 31;
-  const uint32_t mantissa = bits & ((1u << mantissa_bits) - 1);
-  if (exponent == 31) return mantissa == 0 ? INFINITY : NAN;
-  const auto value = static_cast<float>(mantissa);
-  if (exponent == 0) return std::ldexp(value, -14 - mantissa_bits);
-  return std::ldexp(value + static_cast<float>(1u << mantissa_bits),
-                    static_cast<int>(exponent) - 15 - mantissa_bits);
-}
-
-std::array<float, 4> unpacked(uint32_t bits, Coding coding) {
-  if (coding == Coding::R11g11b10f) {
-    return {small_float(bits & 2047, 6), small_float(bits >> 11 & 2047, 6),
-            small_float(bits >> 22, 5), 1.0f};
-  }
-  std::array<float, 4> texel{};
-  if (coding == Coding::Rgb9e5) {
-    const int exponent = static_cast<int>(bits >> 27) - 24;  // bias 15, 9 bits of mantissa
-    for (size_t c = 0; c < 3; ++c) {
-      texel[c] = std::ldexp(static_cast<float>(bits >> (9 * c) & 511), exponent);
-    }
-    return texel;
-  }
-  for (size_t c = 0; c < 3; ++c) {
-    texel[c] = static_cast<float>(bits >> (10 * c) & 1023) / 1023.0f;
-  }
-  texel[3] = static_cast<float>(bits >> 30) / 3.0f;
-  return texel;
-}
 
 // The plane of each channel of memory, nullptr for X, in the order of kiln's images.
 std::vector<std::string> channel_names(const TexelFormat& format) {
@@ -81,8 +46,8 @@ void swap_samples(std::vector<std::byte>& row, size_t sample) {
 void place_row(const std::vector<std::byte>& row, const TexelFormat& format, int y,
                const std::vector<Plane*>& planes) {
   const size_t width = row.size() / texel_bytes(format);
-  if (!is_packed(format.coding)) {
-    const PixelType type = held_as(format.coding);
+  const PixelType type = coded_as(format.coding);
+  if (!is_packed(type)) {
     for (size_t c = 0; c < planes.size(); ++c) {
       if (planes[c] == nullptr) continue;
       load_samples(row.data() + c * sample_bytes(type), type, planes.size(),
@@ -93,7 +58,7 @@ void place_row(const std::vector<std::byte>& row, const TexelFormat& format, int
   for (size_t x = 0; x < width; ++x) {
     uint32_t bits = 0;
     std::memcpy(&bits, row.data() + 4 * x, sizeof bits);
-    const std::array<float, 4> texel = unpacked(bits, format.coding);
+    const std::array<float, 4> texel = unpacked(bits, type);
     for (size_t c = 0; c < planes.size(); ++c) {
       if (planes[c] != nullptr) planes[c]->row(y)[x] = texel[c];
     }
@@ -119,26 +84,34 @@ void check_bytes(const StoredTexels& stored, ByteView bytes) {
 }  // namespace
 
 size_t texel_bytes(const TexelFormat& format) {
-  return is_packed(format.coding) ? 4
-                                  : format.channels.size() * sample_bytes(held_as(format.coding));
+  const PixelType type = coded_as(format.coding);
+  return is_packed(type) ? 4 : format.channels.size() * sample_bytes(type);
 }
 
-PixelType held_as(Coding coding) {
+PixelType coded_as(Coding coding) {
   switch (coding) {
     case Coding::Unorm8:
       return PixelType::Uint8;
     case Coding::Unorm16:
       return PixelType::Uint16;
     case Coding::Half:
-    case Coding::R11g11b10f:
       return PixelType::Half;
     case Coding::Rgb10a2:
       return PixelType::Rgb10a2;
     case Coding::Float:
-    case Coding::Rgb9e5:
       return PixelType::Float;
+    case Coding::R11g11b10f:
+      return PixelType::B10g11r11;
+    case Coding::Rgb9e5:
+      return PixelType::E5b9g9r9;
   }
   return PixelType::Float;
+}
+
+PixelType held_as(Coding coding) {
+  const PixelType type = coded_as(coding);
+  if (type == PixelType::B10g11r11) return PixelType::Half;
+  return type == PixelType::E5b9g9r9 ? PixelType::Float : type;
 }
 
 FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
@@ -176,8 +149,7 @@ Volume read_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits&
   volume.file.image = make_layers(volume.file.facts.size, volume.file.facts.channels);
   const std::vector<Plane*> planes = planes_in_memory_order(stored.texel, volume.file.image);
   const auto height = static_cast<int>(stored.height);
-  const size_t sample =
-      is_packed(stored.texel.coding) ? 4 : sample_bytes(held_as(stored.texel.coding));
+  const size_t sample = sample_bytes(coded_as(stored.texel.coding));
   std::vector<std::byte> row(static_cast<size_t>(stored.width) * texel_bytes(stored.texel));
   for (int y = 0; y < volume.file.facts.size.height; ++y) {
     const size_t at = stored.first + static_cast<size_t>(y) * stored.row_pitch;

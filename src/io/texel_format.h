@@ -30,7 +30,10 @@ struct TexelFormat {
 
 size_t texel_bytes(const TexelFormat& format);
 
-/// The smallest type that holds it.
+/// The type that is coded so.
+PixelType coded_as(Coding coding);
+
+/// The smallest type of whole samples, or Rgb10a2, that holds it.
 PixelType held_as(Coding coding);
 
 /// Uncompressed texels inside a container's bytes.

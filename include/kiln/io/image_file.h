@@ -24,8 +24,15 @@ enum class PixelType {
   /// step of a value, 2.2 / 255 (value a / 255)^(1.2/2.2) / (a / 255), shrinks as a grows. Within
   /// [0,1] a is 255 throughout, so such a file may also be filtered before it is decoded.
   Rgbd8,
+  /// Floats without sign in 32 bits: 11 bits of R (lowest) and of G, 10 of B, each with 5 bits of
+  /// exponent (bias 15) above 6, 6 and 5 of mantissa. Up to 65024, 65024 and 64512, in steps of
+  /// 1.6 %, 1.6 % and 3.1 % of a power of two.
+  B10g11r11,
+  /// Three mantissas of 9 bits, R lowest, and one exponent of 5 for all, in 32 bits. Up to 65408;
+  /// the step of all three is 1 part in 256 to 512 of the largest of them.
+  E5b9g9r9,
 };
-/// "uint8", "uint16", "half", "float", "rgb10a2", "rgbd8"
+/// "uint8", "uint16", "half", "float", "rgb10a2", "rgbd8", "b10g11r11", "e5b9g9r9"
 std::string_view pixel_type_name(PixelType type);
 
 /// Metadata "name" -> text.
@@ -36,7 +43,8 @@ struct FileFacts {
   std::string format;  ///< "openexr", "png", "jpeg", "hdr", "tiff", ...; told by the contents
   Size size;           ///< as returned: the display window, after orientation
   std::vector<std::string> channels;  ///< R G B (or Y), A first; layers keep full names
-  PixelType type = PixelType::Uint8;  ///< the smallest that holds what is stored; never Rgbd8
+  /// The smallest of the first five that holds what is stored.
+  PixelType type = PixelType::Uint8;
   /// As tagged by the file, never trusted for data: a name of the built-in colour configuration,
   /// or "icc: DESCRIPTION". Empty when the file does not say; formats' customs are not a tag.
   std::optional<std::string> color_space_tag;
@@ -170,5 +178,12 @@ WriteFacts write_image(const std::filesystem::path& path, const Layers& image,
 /// @error as write_image, and what making a band throws
 WriteFacts write_bands(const std::filesystem::path& path, const ImageBands& image,
                        const WriteOptions& options);
+
+/// What a reader of a file of this type gets: each value rounded, clamped or shared an exponent as
+/// the type has it. The difference to `image` is the error of the encoding. Layers keep their
+/// names and order.
+/// @error Fault::Usage for more channels than the type has (b10g11r11, e5b9g9r9, rgbd8: R G B, or
+///        one or two; rgb10a2: four)
+Layers coded(const Layers& image, PixelType type);
 
 }  // namespace kiln
