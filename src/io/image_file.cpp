@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "band_encoder.h"
+#include "env_file.h"
 #include "file_bytes.h"
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
@@ -33,14 +34,6 @@ namespace fs = std::filesystem;
 
 std::string format_of(const fs::path& path) {
   return io::format_by_contents(path, io::first_bytes(path, io::signature_length));
-}
-
-// Where the texels of a texture container lie; nothing where OpenImageIO is to read the file.
-std::optional<io::StoredTexels> texels_of(const std::string& format, io::ByteView bytes) {
-  if (format == "dds") return io::dds_texels(bytes);
-  if (format == "ktx") return io::ktx1_texels(bytes);
-  if (format == "ktx2") return io::ktx2_texels(bytes);
-  return std::nullopt;
 }
 
 void check_type(const fs::path& path, const WritableFormat& format, PixelType type) {
@@ -224,7 +217,8 @@ FileFacts inspect_image(const fs::path& path) {
     const io::Bytes bytes = io::all_bytes(path);
     if (format == "hdr") return io::inspect_hdr(bytes, limits);
     if (format == "npy") return io::inspect_npy(bytes, limits);
-    if (const auto texels = texels_of(format, bytes)) {
+    if (format == "env") return io::inspect_env(bytes, limits);
+    if (const auto texels = io::stored_texels(format, bytes)) {
       return io::facts_of_texels(*texels, bytes, limits);
     }
     return io::inspect_by_openimageio(format, bytes, limits);
@@ -242,7 +236,8 @@ io::Volume io::read_volume(const fs::path& path, const std::string& format,
   const Bytes bytes = all_bytes(path);
   if (format == "hdr") return {read_hdr(bytes, limits)};
   if (format == "npy") return read_npy_image(bytes, limits);
-  if (const auto texels = texels_of(format, bytes)) return read_texels(*texels, bytes, limits);
+  if (format == "env") return {read_env(bytes, limits)};
+  if (const auto texels = stored_texels(format, bytes)) return read_texels(*texels, bytes, limits);
   return {read_by_openimageio(format, bytes, limits)};
 }
 

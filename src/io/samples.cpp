@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -153,6 +154,28 @@ void require_within(const ReadLimits& limits, long long width, long long height,
     throw Error(Fault::Input,
                 fmt::format("the header claims {} channels; more than {} are not read", channels,
                             limits.max_channels));
+  }
+}
+
+void require_levels_within(const ReadLimits& limits, long long width, long long height,
+                           long long levels, long long faces) {
+  require_within(limits, width, height, 1);
+  const auto edge = static_cast<unsigned long long>(std::max(width, height));
+  if (levels < 1 || levels > static_cast<long long>(std::bit_width(edge))) {
+    throw Error(Fault::Input,
+                fmt::format("the header claims {} mip levels of {} x {} texels, which have 1 to {}",
+                            levels, width, height, std::bit_width(edge)));
+  }
+  long long texels = 0;
+  for (long long level = 0; level < levels; ++level) {
+    texels += std::max(1LL, width >> level) * std::max(1LL, height >> level);
+  }
+  if (faces < 1 || texels > limits.max_texels / faces) {
+    throw Error(
+        Fault::Input,
+        fmt::format("the header claims {} levels of {} faces with {} x {} texels; more than "
+                    "{} texels in all are not read",
+                    levels, faces, width, height, limits.max_texels));
   }
 }
 

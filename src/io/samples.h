@@ -42,6 +42,11 @@ void count_clamped(float value, WriteFacts& facts);
 void require_within(const ReadLimits& limits, long long width, long long height,
                     long long channels);
 
+/// The same for the faces of all levels together, each level half as large as the one before.
+/// @error as require_within, and for more levels than such a size has
+void require_levels_within(const ReadLimits& limits, long long width, long long height,
+                           long long levels, long long faces);
+
 /// Where a channel stands in Layers: R G B (or Y), then A, then all others as they came.
 int channel_rank(std::string_view name);
 

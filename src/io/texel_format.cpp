@@ -11,6 +11,7 @@
 #include "kiln/core/error.h"
 #include "packed_texel.h"
 #include "samples.h"
+#include "zstd_bytes.h"
 
 namespace kiln::io {
 namespace {
@@ -65,6 +66,35 @@ void place_row(const std::vector<std::byte>& row, const TexelFormat& format, int
   }
 }
 
+// Bytes of a level: all its layers, faces and slices. @error when it has more texels than allowed
+size_t level_bytes(const StoredTexels& stored, const ReadLimits& limits) {
+  long long texels = 1;
+  for (const long long count :
+       {stored.width, stored.height, stored.depth, stored.layers, stored.faces}) {
+    if (count < 1 || texels > limits.max_texels / count) {
+      throw Error(Fault::Input,
+                  fmt::format("the header claims {} x {} x {} texels, {} layers and {} faces; more "
+                              "than {} texels are not read",
+                              stored.width, stored.height, stored.depth, stored.layers,
+                              stored.faces, limits.max_texels));
+    }
+    texels *= count;
+  }
+  return static_cast<size_t>(texels) * texel_bytes(stored.texel);
+}
+
+// The part of the file that holds the supercompressed level.
+ByteView stored_level(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  const size_t texels = level_bytes(stored, limits);
+  if (stored.first > bytes.size() || stored.stored_bytes > bytes.size() - stored.first ||
+      !zstd_may_hold(stored.stored_bytes, texels)) {
+    throw Error(Fault::Input,
+                fmt::format("truncated: the header claims {} bytes of texels in {} bytes", texels,
+                            stored.stored_bytes));
+  }
+  return bytes.subspan(stored.first, stored.stored_bytes);
+}
+
 // @error when the texels do not lie within the bytes
 void check_bytes(const StoredTexels& stored, ByteView bytes) {
   const auto rows = static_cast<unsigned long long>(stored.height * stored.depth);
@@ -79,6 +109,18 @@ void check_bytes(const StoredTexels& stored, ByteView bytes) {
                     "bytes follow",
                     stored.width, stored.height, stored.depth, texel_bytes(stored.texel), left));
   }
+}
+
+std::vector<std::string> what_is_left(const StoredTexels& stored) {
+  std::vector<std::string> notes;
+  if (stored.faces > 1) notes.emplace_back("a cube; its first face is read");
+  if (stored.layers > 1) {
+    notes.push_back(fmt::format("an array of {}; the first is read", stored.layers));
+  }
+  if (stored.levels > 1) {
+    notes.push_back(fmt::format("{} mip levels; the largest is read", stored.levels));
+  }
+  return notes;
 }
 
 }  // namespace
@@ -125,7 +167,11 @@ FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const Read
   }
   require_within(limits, stored.width, stored.height * stored.depth,
                  static_cast<long long>(names.size()));
-  check_bytes(stored, bytes);
+  if (stored.supercompression == Supercompression::None) {
+    check_bytes(stored, bytes);
+  } else {
+    stored_level(stored, bytes, limits);
+  }
   FileFacts facts;
   facts.format = stored.format;
   facts.size = {static_cast<int>(stored.width), static_cast<int>(stored.height * stored.depth)};
@@ -133,7 +179,8 @@ FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const Read
   facts.type = held_as(stored.texel.coding);
   if (stored.texel.srgb) facts.color_space_tag = "srgb_rec709_scene";
   facts.attributes = stored.attributes;
-  facts.notes = stored.notes;
+  facts.notes = what_is_left(stored);
+  facts.notes.insert(facts.notes.end(), stored.notes.begin(), stored.notes.end());
   if (stored.depth > 1) {
     facts.notes.push_back(
         fmt::format("a volume: {} slices of {} x {} texels stand one below the other", stored.depth,
@@ -142,7 +189,18 @@ FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const Read
   return facts;
 }
 
+Bytes inflated_level(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  return zstd_inflated(stored_level(stored, bytes, limits), level_bytes(stored, limits));
+}
+
 Volume read_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  if (stored.supercompression != Supercompression::None) {
+    const Bytes level = inflated_level(stored, bytes, limits);
+    StoredTexels plain = stored;
+    plain.first = 0;
+    plain.supercompression = Supercompression::None;
+    return read_texels(plain, level, limits);
+  }
   Volume volume;
   volume.depth = static_cast<int>(stored.depth);
   volume.file.facts = facts_of_texels(stored, bytes, limits);

@@ -227,9 +227,12 @@ TEST_F(Textures, NamesWhatOfKtxIsNotRead) {
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(block); }), HasSubstr("block-compressed"));
   write_image(folder / "b.ktx2", pattern({4, 4}, {"E"}), {});
   std::string bytes = bytes_of(folder / "b.ktx2");
+  bytes[44] = 3;
+  EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(write_bytes("c.ktx2", bytes)); }),
+              HasSubstr("c.ktx2: supercompressed with ZLIB, which is not read"));
   bytes[44] = 2;
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(write_bytes("c.ktx2", bytes)); }),
-              HasSubstr("c.ktx2: supercompressed with Zstandard, which is not read"));
+              HasSubstr("c.ktx2: damaged Zstandard frame"));
   bytes[44] = 0;
   bytes[12] = static_cast<char>(145);
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(write_bytes("d.ktx2", bytes)); }),
