@@ -9,7 +9,7 @@
 namespace kiln::io {
 
 std::string zstd_compressed(std::string_view bytes) {
-  constexpr int effort = 10;  // of 22; beyond it texels of floats shrink by little more
+  constexpr int effort = 7;  // of 22; texels of halves shrink by 0.5 % more in three times the time
   std::string frame(ZSTD_compressBound(bytes.size()), '\0');
   const size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), effort);
   if (ZSTD_isError(size) != 0) {

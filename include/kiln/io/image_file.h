@@ -48,8 +48,8 @@ struct FileFacts {
   /// As tagged by the file, never trusted for data: a name of the built-in colour configuration,
   /// or "icc: DESCRIPTION". Empty when the file does not say; formats' customs are not a tag.
   std::optional<std::string> color_space_tag;
-  bool node_aligned = false;       ///< lat-long with samples on the border
-  Attributes attributes;           ///< text metadata of the file, of EXR, HDR, PNG, TIFF and KTX
+  bool node_aligned = false;       ///< lat-long (of a texture: or cube) with samples on the border
+  Attributes attributes;           ///< text metadata, of EXR, HDR, PNG, TIFF, KTX and .env
   std::vector<std::string> notes;  ///< what had to be decided or repaired while reading
 };
 
@@ -67,8 +67,8 @@ struct ReadLimits {
 FileFacts inspect_image(const std::filesystem::path& path);
 
 /// Any image: OpenEXR, Radiance HDR, DDS and KTX that are not block-compressed, and .npy directly,
-/// everything else through OpenImageIO, which is loaded on first use. The contents decide the
-/// format, not the extension.
+/// everything else (and the images within .env) through OpenImageIO, which is loaded on first use.
+/// The contents decide the format, not the extension.
 ///
 /// The display window is what is returned, with 0 where a file has no data; EXIF and HDR
 /// orientation are applied. NaN and Inf are returned as stored. Of several parts or pages the first
