@@ -13,5 +13,6 @@ done
 [[ -n ${missing:-} ]] || exit 0
 
 mkdir -p build/readers
-npm install --prefix build/readers --silent --no-audit --no-fund --ignore-scripts "${readers[@]}" ||
+npm install --prefix build/readers --silent --no-audit --no-fund --ignore-scripts \
+  --fetch-retries=0 --fetch-timeout=20000 "${readers[@]}" ||
   echo "readers: npm could not install ${readers[*]}; the tests that want them skip" >&2
