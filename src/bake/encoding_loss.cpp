@@ -24,14 +24,6 @@ Held held_by(const std::string& pixel_type, const Coded& coded) {
   return {held.layers[0].plane.at(0, 0), held.layers[2].plane.at(1, 0)};
 }
 
-// Of a face or an image, as good as exact for the sum over one.
-double solid_angle_of(const SphereGrid& grid, int x, int y) {
-  const Size size = grid.image_size();
-  if (grid.layout == SphereLayout::Cube) return cube_texel_solid_angle(size.width, x, y);
-  if (grid.layout == SphereLayout::LatLong) return latlong_texel_solid_angle(size, y);
-  return octahedral_texel_solid_angle(size.width, x, y);
-}
-
 /// Sums over the values of an image.
 struct Sums {
   double squares = 0, greatest = 0, clamped = 0;
@@ -56,14 +48,17 @@ void add_value(float is, float has, const Held& range, double solid_angle, Sums&
   sums.lost_power -= beyond ? error * solid_angle : 0;
 }
 
-Sums sums_of(const Layers& image, const Layers& held, const Held& range, const SphereGrid& grid) {
+/// @param weights  solid angles of texels; empty: none are weighed
+Sums sums_of(const Layers& image, const Layers& held, const Held& range,
+             const std::vector<double>& weights) {
   std::vector<Sums> rows(static_cast<size_t>(image.size.height));
   for_rows(image.size.height, [&](int y) {
     Sums& row = rows[static_cast<size_t>(y)];
+    const size_t first = static_cast<size_t>(y) * static_cast<size_t>(image.size.width);
     for (int x = 0; x < image.size.width; ++x) {
-      const double solid_angle = solid_angle_of(grid, x, y);
+      const double weight = weights.empty() ? 0.0 : weights[first + static_cast<size_t>(x)];
       for (size_t c = 0; c < image.layers.size(); ++c) {
-        add_value(image.layers[c].plane.at(x, y), held.layers[c].plane.at(x, y), range, solid_angle,
+        add_value(image.layers[c].plane.at(x, y), held.layers[c].plane.at(x, y), range, weight,
                   row);
       }
     }
@@ -82,10 +77,9 @@ EncodingLoss measure_encoding(const std::vector<std::vector<Layers>>& levels,
   Sums all, of_first;
   double count = 0;
   for (size_t level = 0; level < levels.size(); ++level) {
-    SphereGrid grid = first;
-    grid.size = std::max(1, first.size >> level);
+    const std::vector<double> weights = level == 0 ? solid_angles(first) : std::vector<double>{};
     for (const Layers& image : levels[level]) {
-      const Sums found = sums_of(image, coded(image, pixel_type), range, grid);
+      const Sums found = sums_of(image, coded(image, pixel_type), range, weights);
       all.add(found);
       if (level == 0) of_first.add(found);
       count += static_cast<double>(area(image.size)) * static_cast<double>(image.layers.size());

@@ -27,6 +27,7 @@ struct Computed {
   std::vector<Layers> irradiance;
   FilterError irradiance_error;
   Vec3<double> mean_radiance;
+  std::array<Vec3<double>, 9> shader;  ///< irradiance over pi as shaders sum it, in engine's axes
 };
 
 std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
@@ -40,6 +41,8 @@ std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
 Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
   Computed computed;
   computed.mean_radiance = mean_radiance(light.latlong);
+  computed.shader = scaled_for_shaders(
+      irradiance_over_pi(windowed(project_sh(light.latlong, 2, recipe.axes), recipe.sh_window)));
   const Prefilter prefilter(light.latlong, lobes_of(recipe));
   std::vector<FilteredLevel> filtered;
   for (size_t level = 0; level < recipe.plan.sizes.size(); ++level) {
@@ -77,19 +80,11 @@ void turn_to_engine(const Axes& axes, Computed& computed) {
   computed.irradiance = faces_in(axes, computed.irradiance);
 }
 
-/// The nine numbers that shaders sum, of irradiance over pi.
-std::array<Vec3<double>, 9> shader_harmonics(const EnvironmentRecipe& recipe, const Light& light) {
-  return scaled_for_shaders(
-      irradiance_over_pi(windowed(project_sh(light.latlong, 2, recipe.axes), recipe.sh_window)));
-}
-
 /// One file, or one per image and level, of the recipe's format.
 class Files {
  public:
-  Files(const EnvironmentRecipe& recipe, const Light& light) : recipe_(recipe) {
-    const auto harmonics = shader_harmonics(recipe, light);
-    irradiance_.assign(harmonics.begin(), harmonics.end());
-  }
+  Files(const EnvironmentRecipe& recipe, const Computed& computed)
+      : recipe_(recipe), irradiance_(computed.shader.begin(), computed.shader.end()) {}
 
   /// Levels, as one texture or as files "STEM_mN".
   void add_chain(Baked& baked, const std::string& stem, std::vector<std::vector<Layers>> levels,
@@ -165,7 +160,8 @@ Json list_of(const Coefficients& coefficients) {
   return list;
 }
 
-Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light) {
+Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light,
+                        const Computed& computed) {
   const SphericalHarmonics radiance =
       windowed(project_sh(light.latlong, recipe.sh_order, recipe.axes), recipe.sh_window);
   return {{"order", radiance.order},
@@ -179,7 +175,7 @@ Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light) {
            {{"meaning",
              "irradiance over pi = c0 + c1 y + c2 z + c3 x + c4 x y + c5 y z + c6 (3 z^2 - 1) + "
              "c7 x z + c8 (x^2 - y^2) of the normal (x, y, z)"},
-            {"c", list_of(shader_harmonics(recipe, light))}}}};
+            {"c", list_of(computed.shader)}}}};
 }
 
 Json describe_dominant(const EnvironmentRecipe& recipe, const Light& light) {
@@ -272,9 +268,9 @@ Baked EnvironmentBake::bake(const Settings& settings, const Ingredients& ingredi
   Baked baked;
   baked.notes = recipe.preset.cautions;
   add_figures(recipe, computed, loss, baked);
-  add_text(baked, "sh", describe_harmonics(recipe, light));
+  add_text(baked, "sh", describe_harmonics(recipe, light, computed));
   add_text(baked, "env", describe(recipe, light, computed, loss));
-  const Files files(recipe, light);
+  const Files files(recipe, computed);
   if (!recipe.preset.skybox.empty()) {
     files.add_level(baked, recipe.preset.skybox, computed.specular.front(), "radiance");
   }

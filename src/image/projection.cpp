@@ -70,12 +70,14 @@ double octahedral_texel_solid_angle(int n, int x, int y) {
          triangle_solid_angle(corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1));
 }
 
+double cube_corner_solid_angle(int n, int i, int j) {
+  const double s = 2.0 * i / n - 1, t = 2.0 * j / n - 1;
+  return std::atan2(s * t, std::sqrt(s * s + t * t + 1));
+}
+
 double cube_texel_solid_angle(int n, int x, int y) {
-  const auto corner = [n](int i, int j) {
-    const double s = 2.0 * i / n - 1, t = 2.0 * j / n - 1;
-    return std::atan2(s * t, std::sqrt(s * s + t * t + 1));
-  };
-  return corner(x, y) - corner(x + 1, y) - corner(x, y + 1) + corner(x + 1, y + 1);
+  return cube_corner_solid_angle(n, x, y) - cube_corner_solid_angle(n, x + 1, y) -
+         cube_corner_solid_angle(n, x, y + 1) + cube_corner_solid_angle(n, x + 1, y + 1);
 }
 
 }  // namespace kiln

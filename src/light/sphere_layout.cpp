@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/light/sphere_layout.h"
 
+#include "kiln/parallel/rows.h"
+
 namespace kiln {
 
 Size SphereGrid::image_size() const {
@@ -42,6 +44,42 @@ void row_directions(const SphereGrid& grid, int image, int y,
   for (int x = 0; x < grid.image_size().width; ++x) {
     directions.push_back(direction_of(grid.layout, image, grid.point(x, y)));
   }
+}
+
+namespace {
+
+// The same corner serves four texels.
+std::vector<double> face_solid_angles(int n) {
+  const auto corners = static_cast<size_t>(n) + 1;
+  std::vector<double> corner(corners * corners);
+  for_rows(n + 1, [&](int j) {
+    for (int i = 0; i <= n; ++i) {
+      corner[static_cast<size_t>(j) * corners + static_cast<size_t>(i)] =
+          cube_corner_solid_angle(n, i, j);
+    }
+  });
+  std::vector<double> found(static_cast<size_t>(n) * static_cast<size_t>(n));
+  for (size_t i = 0; i < found.size(); ++i) {
+    const size_t at = i / static_cast<size_t>(n) * corners + i % static_cast<size_t>(n);
+    found[i] = corner[at] - corner[at + 1] - corner[at + corners] + corner[at + corners + 1];
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<double> solid_angles(const SphereGrid& grid) {
+  const Size size = grid.image_size();
+  if (grid.layout == SphereLayout::Cube) return face_solid_angles(size.width);
+  std::vector<double> found(static_cast<size_t>(area(size)));
+  for_rows(size.height, [&](int y) {
+    for (int x = 0; x < size.width; ++x) {
+      found[static_cast<size_t>(y) * static_cast<size_t>(size.width) + static_cast<size_t>(x)] =
+          grid.layout == SphereLayout::LatLong ? latlong_texel_solid_angle(size, y)
+                                               : octahedral_texel_solid_angle(size.width, x, y);
+    }
+  });
+  return found;
 }
 
 }  // namespace kiln

@@ -256,25 +256,11 @@ double source_texels_of(const SphereGrid& grid, Size source) {
   return widest_rad * source.height / pi;
 }
 
-/// Exact solid angles of the texels of an image, or of any face [sr].
-std::vector<double> solid_angles_of(SphereLayout layout, Size size) {
-  std::vector<double> solid_angles(static_cast<size_t>(area(size)));
-  for_rows(size.height, [&](int y) {
-    for (int x = 0; x < size.width; ++x) {
-      solid_angles[static_cast<size_t>(y) * static_cast<size_t>(size.width) +
-                   static_cast<size_t>(x)] = layout == SphereLayout::Octahedral
-                                                 ? octahedral_texel_solid_angle(size.width, x, y)
-                                                 : cube_texel_solid_angle(size.width, x, y);
-    }
-  });
-  return solid_angles;
-}
-
-double power_of(const Plane& plane, const std::vector<double>& solid_angles) {
+double power_of(const Plane& plane, const std::vector<double>& weights) {
   const auto sums = sum_rows(plane.height(), 1, [&](int y, std::vector<double>& row) {
     const size_t first = static_cast<size_t>(y) * static_cast<size_t>(plane.width());
     for (int x = 0; x < plane.width(); ++x) {
-      row[0] += plane.at(x, y) * solid_angles[first + static_cast<size_t>(x)];
+      row[0] += plane.at(x, y) * weights[first + static_cast<size_t>(x)];
     }
   });
   return sums[0];
@@ -282,14 +268,14 @@ double power_of(const Plane& plane, const std::vector<double>& solid_angles) {
 
 // Averages by points miss a little of the power, or find too much: they are scaled so that, with
 // the others, the whole is that of the source. Nothing is scaled where power nearly cancels.
-void keep_power(const Vec3<double>& mean, SphereLayout layout, const std::vector<bool>& by_points,
-                std::vector<Layers>& images) {
-  const std::vector<double> solid_angles = solid_angles_of(layout, images.front().size);
+void keep_power(const Vec3<double>& mean, const SphereGrid& grid,
+                const std::vector<bool>& by_points, std::vector<Layers>& images) {
+  const std::vector<double> weights = solid_angles(grid);
   const std::array<double, 3> whole = {4 * pi * mean.x, 4 * pi * mean.y, 4 * pi * mean.z};
   for (size_t c = 0; c < 3; ++c) {
     double exact = 0, found = 0;
     for (size_t i = 0; i < images.size(); ++i) {
-      (by_points[i] ? found : exact) += power_of(images[i].layers[c].plane, solid_angles);
+      (by_points[i] ? found : exact) += power_of(images[i].layers[c].plane, weights);
     }
     const auto scale = static_cast<float>((whole[c] - exact) / found);
     if (!(std::abs(scale - 1) < 0.01f)) continue;
@@ -327,7 +313,7 @@ void average_images(const Layers& latlong, const SphereGrid& grid, std::vector<L
     if (by_points[i]) average_rows(points, grid, image, images[i]);
     spill.add_to(image, images[i]);
   }
-  if (!grid.at_nodes) keep_power(mean_radiance(latlong), grid.layout, by_points, images);
+  if (!grid.at_nodes) keep_power(mean_radiance(latlong), grid, by_points, images);
 }
 
 }  // namespace

@@ -149,8 +149,7 @@ std::vector<Ranked> rank(const Sheet& sheet) {
   for (const Reading& reading : all_readings()) all.push_back({reading, 1});
   keep_best(all, 16, [&](const Reading& reading) { return share_of_one(sheet, reading); });
   if (all[0].mean > hopeless) return all;
-  for (const std::pair<int, int> look :
-       {std::pair{6, entries_tried}, std::pair{4, entries_compared}}) {
+  for (const auto& look : {std::pair{6, entries_tried}, std::pair{4, entries_compared}}) {
     keep_best(all, look.first,
               [&](const Reading& reading) { return inner_shares(sheet, reading, look.second); });
     if (all[0].mean > 2 * greatest_share) break;

@@ -69,6 +69,10 @@ Vec2<double> direction_to_octahedral(const Vec3<double>& d);
 /// Exact solid angle of texel (x, y) of an octahedral map with edge n [sr].
 double octahedral_texel_solid_angle(int n, int x, int y);
 
+/// Exact solid angle between the middle lines of a cube face and the corner (i, j) of its texels,
+/// with the sign of the quarter it lies in; a texel's is a sum over its four corners [sr].
+double cube_corner_solid_angle(int n, int i, int j);
+
 /// Exact solid angle of texel (x, y) of a cube face with edge n [sr].
 double cube_texel_solid_angle(int n, int x, int y);
 

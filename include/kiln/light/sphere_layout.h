@@ -38,4 +38,8 @@ Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv);
 void row_directions(const SphereGrid& grid, int image, int y,
                     std::vector<Vec3<double>>& directions);
 
+/// Exact solid angles of the texels of an image, or of any face, row by row [sr]; of a grid at
+/// nodes as if it had texel centres.
+std::vector<double> solid_angles(const SphereGrid& grid);
+
 }  // namespace kiln
