@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kiln/io/image_file.h"
+#include "reading.h"
 
 namespace kiln::io {
 
@@ -11,7 +12,7 @@ namespace kiln::io {
 FileFacts inspect_openexr(const std::filesystem::path& path, const ReadLimits& limits);
 
 /// The first part, largest level, over its display window. @error Fault::Input, without the path
-ImageFile read_openexr(const std::filesystem::path& path, const ReadLimits& limits);
+ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading);
 
 /// Scan lines, ZIP or not packed, channels in the order of their names.
 /// @param type  Half or Float

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include "kiln/core/error.h"
@@ -96,10 +97,12 @@ void note_environment(const Imf::Header& header, FileFacts& facts) {
   const auto* border = header.findTypedAttribute<Imf::IntAttribute>("oiio:sampleborder");
   facts.node_aligned = border != nullptr && border->value() == 1;
   if (!Imf::hasEnvmap(header)) return;
+  facts.node_aligned = true;
   if (Imf::envmap(header) == Imf::ENVMAP_LATLONG) {
-    facts.node_aligned = true;
+    facts.envmap = Envmap::LatLong;
     facts.notes.emplace_back("lat-long environment with samples on the border (envmap)");
   } else {
+    facts.envmap = Envmap::Cube;
     facts.notes.emplace_back(
         "cube environment of six faces, one above the other, with samples on their borders "
         "(envmap)");
@@ -168,7 +171,7 @@ FileFacts facts_of(Imf::MultiPartInputFile& file, const ReadLimits& limits) {
   return facts;
 }
 
-// Rows [first, first + rows) of the data window, all channels, each a plane of its own.
+// Rows [first, first + rows) of the data window, each channel a plane of its own.
 struct Block {
   int first = 0;
   int rows = 0;
@@ -181,12 +184,12 @@ struct Block {
   }
 };
 
-void read_block(Imf::InputPart& part, const FileFacts& facts, Block& block) {
+void read_block(Imf::InputPart& part, const std::vector<std::string>& channels, Block& block) {
   Imf::FrameBuffer frame;
   const Imath::V2i origin(part.header().dataWindow().min.x, block.first);
-  for (size_t c = 0; c < facts.channels.size(); ++c) {
-    frame.insert(facts.channels[c], Imf::Slice::Make(Imf::FLOAT, block.row(c, block.first), origin,
-                                                     block.width, block.rows));
+  for (size_t c = 0; c < channels.size(); ++c) {
+    frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, block.row(c, block.first), origin,
+                                               block.width, block.rows));
   }
   part.setFrameBuffer(frame);
   part.readPixels(block.first, block.first + block.rows - 1);
@@ -215,7 +218,7 @@ int rows_of_block(const Imf::Header& header) {
 
 // Planes are made once the first block could be read, so a header that promises much and has
 // nothing behind it costs little.
-Layers read_part(Imf::InputPart& part, const FileFacts& facts) {
+Layers read_part(Imf::InputPart& part, Size size, const std::vector<std::string>& channels) {
   const Box2i stored = part.header().dataWindow();
   const Box2i shown = part.header().displayWindow();
   Block block{stored.min.y, 0, stored.max.x - stored.min.x + 1, {}};
@@ -223,10 +226,10 @@ Layers read_part(Imf::InputPart& part, const FileFacts& facts) {
   Layers image;
   while (block.first <= stored.max.y) {
     block.rows = static_cast<int>(std::min<long long>(rows, extent(block.first, stored.max.y)));
-    block.texels.resize(facts.channels.size() * static_cast<size_t>(block.rows) *
+    block.texels.resize(channels.size() * static_cast<size_t>(block.rows) *
                         static_cast<size_t>(block.width));
-    read_block(part, facts, block);
-    if (image.layers.empty()) image = make_layers(facts.size, facts.channels);
+    read_block(part, channels, block);
+    if (image.layers.empty()) image = make_layers(size, channels);
     place_block(block, stored, shown, image);
     if (extent(block.first, stored.max.y) <= block.rows) break;
     block.first += block.rows;
@@ -255,15 +258,19 @@ FileFacts inspect_openexr(const std::filesystem::path& path, const ReadLimits& l
   });
 }
 
-ImageFile read_openexr(const std::filesystem::path& path, const ReadLimits& limits) {
+ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading) {
   bound_library();
   return translated([&] {
     Imf::MultiPartInputFile file(path.c_str(), 0, false);
     ImageFile result;
-    result.facts = facts_of(file, limits);
+    result.facts = facts_of(file, reading.limits);
     if (!file.partComplete(0)) throw Error(Fault::Input, "truncated OpenEXR file");
     Imf::InputPart part(file, 0);
-    result.image = read_part(part, result.facts);
+    std::vector<std::string> wanted;
+    std::copy_if(result.facts.channels.begin(), result.facts.channels.end(),
+                 std::back_inserter(wanted),
+                 [&](const std::string& channel) { return reading.wants(channel); });
+    result.image = read_part(part, result.facts.size, wanted);
     if (covers_part(result.image)) {
       result.facts.notes.emplace_back("alpha is not 1 everywhere; colour is as stored beside it");
     }

@@ -6,6 +6,7 @@
 
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
+#include "reading.h"
 #include "stored_planes.h"
 
 namespace kiln::io {
@@ -16,7 +17,7 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
                                  const ReadLimits& limits);
 
 /// @error Fault::Input, without the path
-ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits);
+ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const Reading& reading);
 
 /// The whole file in memory. @error Fault::Output, without the path
 std::string encode_by_openimageio(const std::string& format, Size size, const StoredPlanes& stored,
