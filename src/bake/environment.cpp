@@ -49,8 +49,8 @@ std::vector<Vec3<double>> face_normals(CubeFace face, int edge) {
   return normals;
 }
 
-Layers irradiance_face(const Layers& latlong, CubeFace face, int edge) {
-  const auto values = normalised_irradiance(latlong, face_normals(face, edge));
+Layers irradiance_face(const Layers& masses, CubeFace face, int edge) {
+  const auto values = normalised_irradiance(masses, face_normals(face, edge));
   Layers image = make_layers({edge, edge}, {"R", "G", "B"});
   for (int i = 0; i < edge * edge; ++i) {
     image.layers[0].plane.at(i % edge, i / edge) = static_cast<float>(values[i].x);
@@ -95,13 +95,13 @@ void add_irradiance(Baked& baked, const Settings& settings, const Light& light) 
   const std::string extension = extension_of(settings);
   if (settings.layout == EnvironmentBake::Layout::Cube) {
     add_cube(baked, "irradiance", extension,
-             [&](CubeFace face) { return irradiance_face(light.latlong, face, 64); });
+             [&](CubeFace face) { return irradiance_face(light.masses(), face, 64); });
     return;
   }
   baked.artifacts.push_back(
       {"irradiance",
        extension,
-       IrradianceMap(light.latlong).image(),
+       IrradianceMap(light.masses()).image(),
        "",
        {{"kiln:bake", "environment"}, {"kiln:quantity", "irradiance over pi"}}});
 }
@@ -134,7 +134,7 @@ Json describe_chain(const Settings& settings, const Light& light, const Specular
   if (cube) {
     for (auto name : cube_face_names) json["faces"].push_back(std::string(name));
   }
-  json["mean_radiance"] = to_json(mean_radiance(light.latlong));
+  json["mean_radiance"] = to_json(mean_radiance(light.masses()));
   json["fixed"] = {{"nan", light.fixed.nan},
                    {"inf", light.fixed.inf},
                    {"negative", light.fixed.negative},
@@ -144,6 +144,7 @@ Json describe_chain(const Settings& settings, const Light& light, const Specular
                     "rms at texel centres against brute force, relative to the level's "
                     "mean radiance, before encoding"},
                    {"levels", errors}};
+  json["notes"] = light.notes;
   json["version"] = 1;
   return json;
 }
@@ -168,7 +169,7 @@ Baked EnvironmentBake::bake(const Settings& settings, const Ingredients& ingredi
   Baked baked;
   add_specular(baked, settings, chain);
   add_irradiance(baked, settings, light);
-  add_text(baked, "sh", describe_harmonics(project_sh(light.latlong, settings.sh_order)));
+  add_text(baked, "sh", describe_harmonics(project_sh(light.masses(), settings.sh_order)));
   add_text(baked, "env", describe_chain(settings, light, chain, errors));
   for (int level = 1; level < chain.levels(); ++level) {
     baked.figures.emplace_back(fmt::format("rms error of level {}", level), errors[level]);
