@@ -86,14 +86,15 @@ class Band {
   Powers write_to(Layers& image) const {
     Powers carried{};
     for (int y = begin_; y < end_; ++y) {
-      const double solid_angle = latlong_texel_solid_angle(image_, y);
-      for (size_t c = 0; c < channels; ++c) {
-        const double* from = row(y, c);
-        float* to = image.layers[c].plane.row(y);
-        for (int x = 0; x < image_.width; ++x) {
-          carried[c] += from[x];
-          to[x] = static_cast<float>(carried[c] / solid_angle);
-          carried[c] -= solid_angle * to[x];
+      const double solid_angle = latlong_texel_solid_angle(image_, y), inverse = 1 / solid_angle;
+      const double* from = row(y);
+      std::array<float*, channels> to;
+      for (size_t c = 0; c < channels; ++c) to[c] = image.layers[c].plane.row(y);
+      for (int x = 0; x < image_.width; ++x) {
+        for (size_t c = 0; c < channels; ++c) {
+          carried[c] += from[c * stride_ + static_cast<size_t>(x)];
+          to[c][x] = static_cast<float>(carried[c] * inverse);
+          carried[c] -= solid_angle * to[c][x];
         }
       }
     }
@@ -101,8 +102,8 @@ class Band {
   }
 
  private:
-  const double* row(int y, size_t channel) const {
-    return powers_.data() + (static_cast<size_t>(y - begin_) * channels + channel) * stride_;
+  const double* row(int y) const {
+    return powers_.data() + static_cast<size_t>(y - begin_) * channels * stride_;
   }
 
   void add(int y, int column, const std::array<double, taps>& weights, double weight,

@@ -86,10 +86,14 @@ class LightReader {
   Layers read_color(const fs::path& path, const FileFacts& facts) {
     const std::vector<std::string> channels = color_channels(facts.channels);
     Layers image = named_rgb(read_image(path, {}, channels).image, channels);
-    const std::string from = space_of(environment_.color_space, facts.type);
+    bring_to_working(facts.type, image);
+    return image;
+  }
+
+  void bring_to_working(PixelType type, Layers& image) {
+    const std::string from = space_of(environment_.color_space, type);
     config_.convert(image, from, color_.working);
     record_.color = conversion_text(from, color_.working);
-    return image;
   }
 
   void note(const FileFacts& facts, const std::string& before) {
