@@ -34,7 +34,7 @@ struct Stage {
   std::shared_ptr<const AlbedoTable> albedo = make_albedo_table();
 
   explicit Stage(Size size)
-      : material(varied(size)), light(make_light(sky(), {.prefiltered = true})) {}
+      : material(varied(size)), light(make_light(latlong_image(sky()), {.prefiltered = true})) {}
 
   Ingredients ingredients() const {
     Ingredients i;

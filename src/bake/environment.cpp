@@ -8,6 +8,8 @@
 #include "environment_recipe.h"
 #include "kiln/light/dominant_light.h"
 #include "kiln/light/filter_error.h"
+#include "kiln/light/source.h"
+#include "kiln/light/turn.h"
 #include "light_product.h"
 
 namespace kiln {
@@ -38,26 +40,54 @@ std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
   return lobes;
 }
 
+SphericalHarmonics harmonics(const EnvironmentRecipe& recipe, const Light& light, int order) {
+  return windowed(project_sh(light.masses(), order, recipe.axes, light.rotate_deg),
+                  recipe.sh_window);
+}
+
+// Of a cube its own texels, where these can be kept.
+std::vector<Layers> average(const Light& light, const SphereGrid& grid) {
+  const bool keeps_faces = light.cube && !light.cube->node_aligned && !grid.at_nodes &&
+                           grid.layout == SphereLayout::Cube && grid.rotate_deg == 0;
+  return keeps_faces ? average_faces(*light.cube, grid.size)
+                     : average_over_texels(light.latlong, grid);
+}
+
+// Point masses that are spread leave a little below zero beside a sun.
+void clip_below_zero(std::vector<Layers>& images) {
+  for (Layers& image : images) {
+    for (Layer& layer : image.layers) {
+      for (int y = 0; y < image.size.height; ++y) {
+        float* row = layer.plane.row(y);
+        for (int x = 0; x < image.size.width; ++x) row[x] = std::max(row[x], 0.0f);
+      }
+    }
+  }
+}
+
 Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
   Computed computed;
-  computed.mean_radiance = mean_radiance(light.latlong);
-  computed.shader = scaled_for_shaders(
-      irradiance_over_pi(windowed(project_sh(light.latlong, 2, recipe.axes), recipe.sh_window)));
-  const Prefilter prefilter(light.latlong, lobes_of(recipe));
+  computed.mean_radiance = mean_radiance(light.masses());
+  computed.shader = scaled_for_shaders(irradiance_over_pi(harmonics(recipe, light, 2)));
+  const Prefilter prefilter(light.masses(), lobes_of(recipe));
+  const auto filter = [&](const Lobe& lobe, const SphereGrid& grid) {
+    std::vector<Layers> images = prefilter.filter(lobe, grid);
+    if (light.spread && light.fixed.negative == 0) clip_below_zero(images);
+    return FilteredLevel{lobe, grid, std::move(images)};
+  };
   std::vector<FilteredLevel> filtered;
   for (size_t level = 0; level < recipe.plan.sizes.size(); ++level) {
-    const SphereGrid grid = recipe.grid(recipe.plan.sizes[level]);
+    const SphereGrid grid = recipe.grid(recipe.plan.sizes[level], light.rotate_deg);
     const double roughness = recipe.plan.roughness[level];
     if (roughness == 0) {
-      computed.specular.push_back(average_over_texels(light.latlong, grid));
+      computed.specular.push_back(average(light, grid));
       continue;
     }
-    const Lobe lobe = recipe.lobe(square(roughness));
-    filtered.push_back({lobe, grid, prefilter.filter(lobe, grid)});
+    filtered.push_back(filter(recipe.lobe(square(roughness)), grid));
     computed.specular.push_back(filtered.back().images);
   }
-  const SphereGrid grid = recipe.grid(irradiance_size);
-  filtered.push_back({Lobe{}, grid, prefilter.filter(Lobe{}, grid)});
+  const SphereGrid grid = recipe.grid(irradiance_size, light.rotate_deg);
+  filtered.push_back(filter(Lobe{}, grid));
   computed.irradiance = filtered.back().images;
   std::vector<FilterError> errors =
       filter_errors(prefilter, filtered, luminance(computed.mean_radiance));
@@ -162,8 +192,7 @@ Json list_of(const Coefficients& coefficients) {
 
 Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light,
                         const Computed& computed) {
-  const SphericalHarmonics radiance =
-      windowed(project_sh(light.latlong, recipe.sh_order, recipe.axes), recipe.sh_window);
+  const SphericalHarmonics radiance = harmonics(recipe, light, recipe.sh_order);
   return {{"order", radiance.order},
           {"basis",
            "real, no Condon-Shortley sign, L1-1 ~ y, L10 ~ z, L11 ~ x; (l, m) at l * l + l + m"},
@@ -181,7 +210,8 @@ Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light,
 Json describe_dominant(const EnvironmentRecipe& recipe, const Light& light) {
   const auto dominant = dominant_light(light.latlong);
   if (!dominant) return nullptr;
-  return {{"direction", to_json(recipe.axes.to_engine(dominant->direction))},
+  return {{"direction",
+           to_json(recipe.axes.to_engine(Turn(light.rotate_deg).to_world(dominant->direction)))},
           {"solid_angle_sr", dominant->solid_angle},
           {"radiance", to_json(dominant->radiance)},
           {"irradiance", to_json(dominant->irradiance)}};
@@ -216,6 +246,7 @@ Json describe(const EnvironmentRecipe& recipe, const Light& light, const Compute
     for (const auto name : cube_face_names) json["faces"].push_back(std::string(name));
   }
   if (!recipe.preset.name.empty()) json["preset"] = recipe.preset.name;
+  json["source"] = light.notes;
   json["mean_radiance"] = to_json(computed.mean_radiance);
   json["dominant_light"] = describe_dominant(recipe, light);
   json["fixed"] = {{"nan", light.fixed.nan},
@@ -261,7 +292,7 @@ Baked EnvironmentBake::bake(const Settings& settings, const Ingredients& ingredi
   Computed computed = compute(recipe, light);
   EncodingLoss loss;
   if (ingredients.coded) {
-    loss = measure_encoding(computed.specular, recipe.grid(settings.size), recipe.encoding,
+    loss = measure_encoding(computed.specular, recipe.grid(settings.size, 0), recipe.encoding,
                             luminance(computed.mean_radiance), ingredients.coded);
   }
   turn_to_engine(recipe.axes, computed);

@@ -26,7 +26,9 @@ struct EnvironmentRecipe {
   int sh_order;
   ShWindow sh_window;
 
-  SphereGrid grid(int size) const { return {layout, size, format.at_nodes}; }
+  SphereGrid grid(int size, double rotate_deg) const {
+    return {layout, size, format.at_nodes, rotate_deg};
+  }
   Lobe lobe(double alpha) const { return {distribution, alpha, shape}; }
 };
 

@@ -181,6 +181,7 @@ Params<Settings> PreviewBake::params() {
 Needs PreviewBake::needs(const Settings& settings) {
   return {.material = true,
           .light = true,
+          .sampled = true,
           .prefiltered = settings.mode != Mode::Reference,
           .albedo = true};
 }

@@ -201,7 +201,7 @@ GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,
   Plane carried(picture.size(), 0), trapped(picture.size(), 0);
   const GlassAlbedos albedos(inputs.surface.ior);
   const SobolPoints points = sobol_points_reversed(samples / repetitions);
-  const GlassBody body{picture, inputs.light->environment,
+  const GlassBody body{picture, *inputs.light->environment,
                        F(static_cast<float>(inputs.surface.ior)),
                        inputs.surface.energy == "none" ? nullptr : &albedos};
   for_rows(picture.size().height, [&](int y) {

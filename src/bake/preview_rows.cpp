@@ -32,7 +32,7 @@ struct FusedShader {
   }
   Vec3<F> sum(const Point& point, const SobolPoints& points, int first, int last,
               const std::array<WideUint, 4>& seeds) const {
-    return sum_points(point, light.environment, albedo, points, first, last, seeds);
+    return sum_points(point, *light.environment, albedo, points, first, last, seeds);
   }
   Vec3<F> approximation(const Point& point) const {
     const Vec3<F> normal = point.frame.z;
@@ -55,7 +55,7 @@ struct StagedShader {
   }
   Vec3<F> sum(const StagedPoint& point, const SobolPoints& points, int first, int last,
               const std::array<WideUint, 4>& seeds) const {
-    return sum_points(point, stages, light.environment, albedo, points, first, last, seeds);
+    return sum_points(point, stages, *light.environment, albedo, points, first, last, seeds);
   }
   Vec3<F> approximation(const StagedPoint& point) const {
     return approximate(point, stages, light);

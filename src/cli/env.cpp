@@ -25,10 +25,11 @@ int run(const EnvArguments& arguments, const Globals& globals) {
 
 Action declare(CLI::App& app) {
   const auto arguments = std::make_shared<EnvArguments>();
-  app.add_option("IMAGE", arguments->environment.path, "lat-long image of distant light")
+  app.add_option("IMAGE", arguments->environment.path,
+                 "image of distant light, or the name of six with <FACE>, or their folder")
       ->type_name("");
   app.add_option("-o,--output", arguments->output, "folder for what is made")->type_name("DIR");
-  arguments->environment.declare(app, "--rotate");
+  arguments->environment.declare(app);
   arguments->options =
       std::make_unique<BakeOptions>(app, "environment", std::vector<std::string>{});
   return [arguments](const Globals& globals) { return run(*arguments, globals); };

@@ -2,20 +2,26 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kiln/pipeline/pipeline.h"
 #include "verb.h"
 
 namespace kiln {
 
-/// How an environment image is read, as options: the keys of an `environment` block.
+/// How an environment is read, as options: the keys of an `environment` block.
 struct EnvironmentOptions {
-  std::string path, color_space, rotate, fix;
+  std::string path;
+  std::vector<std::pair<std::string, std::string>> keys = {};  ///< all but `path`; empty: not given
 
-  /// @param with_rotate  "--rotate", or empty where the bake has its own
-  void declare(CLI::App& app, const std::string& with_rotate);
+  /// @param except  keys that are left to others
+  /// @param group   of the options in the help
+  void declare(CLI::App& app, const std::vector<std::string>& except = {},
+               const std::string& group = "Options");
 
   /// The environment named "env".
+  /// @error Fault::Usage naming the option
   EnvironmentChoice choice() const;
 };
 

@@ -41,15 +41,17 @@ std::string line_of(const CLI::Option& option) {
   return name + gap + wrapped(option.get_description()) + "\n";
 }
 
-std::string surface_options(const CLI::App& app) {
+/// The options of a group by their names alone.
+std::string named_options(const CLI::App& app, const std::string& group, const std::string& title,
+                          const std::string& source) {
   std::string names;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group() == of_the_surface) names += spelled(*option) + ", ";
+    if (option->get_group() == group) names += spelled(*option) + ", ";
   }
   if (names.empty()) return "";
   names.resize(names.size() - 2);
-  return "\n  surface (kiln list)     " +
-         wrapped("choices and ranges by kiln list surface: " + names) + "\n";
+  return fmt::format("  {:<{}}", title, indent - 2) +
+         wrapped("choices and ranges by " + source + ": " + names) + "\n";
 }
 
 }  // namespace
@@ -72,9 +74,12 @@ std::string help_of(const Verb& verb, const CLI::App& app) {
   std::string text = fmt::format("kiln {} {}\n{}\n\n", verb.name, verb.arguments, verb.summary);
   for (const CLI::Option* option : app.get_options()) {
     const std::string group = option->get_group();
-    if (group != every_verb && group != of_the_surface) text += line_of(*option);
+    if (group == every_verb || group == of_the_surface || group == of_the_environment) continue;
+    text += line_of(*option);
   }
-  text += surface_options(app);
+  text += "\n";
+  text += named_options(app, of_the_environment, "environment", "kiln env --help");
+  text += named_options(app, of_the_surface, "surface (kiln list)", "kiln list surface");
   text +=
       "\nOf every verb: -h, --help; --json, the result for machines; -q, --quiet; -v, --verbose;\n"
       "-j, --threads N; --ocio FILE, a config over the file's and $OCIO; --isa auto|avx2;\n"

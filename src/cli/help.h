@@ -13,6 +13,10 @@ inline constexpr const char* every_verb = "every verb";
 /// Of options that choose a surface's models; the help names them, `kiln list surface` tells more.
 inline constexpr const char* of_the_surface = "of the surface";
 
+/// Of options that say how an environment is read, where it is not the verb's own subject; the help
+/// names them, that of `kiln env` tells more.
+inline constexpr const char* of_the_environment = "of the environment";
+
 /// What there is: every verb on a line, and the exit codes.
 std::string overview();
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "environment_options.h"
+#include "help.h"
 #include "kiln/core/error.h"
 #include "material_options.h"
 #include "one_task.h"
@@ -36,14 +37,15 @@ Action declare(CLI::App& app) {
   const auto arguments = std::make_shared<PreviewArguments>();
   app.add_option("MATERIAL", arguments->material.path, "folder of maps, or a material file")
       ->type_name("");
-  app.add_option("--env", arguments->environment.path, "lat-long image to light it with")
+  app.add_option("--env", arguments->environment.path,
+                 "image to light it with, or the name of six with <FACE>, or their folder")
       ->type_name("IMAGE");
   app.add_option("-o,--output", arguments->output, "file to make: .exr .png .jpg .hdr .tif")
       ->type_name("FILE");
   arguments->options = std::make_unique<BakeOptions>(app, "preview", std::vector<std::string>{});
   arguments->material.declare(app);
   arguments->material.declare_models(app);
-  arguments->environment.declare(app, "");
+  arguments->environment.declare(app, {"rotate"}, of_the_environment);
   return [arguments](const Globals& globals) { return run(*arguments, globals); };
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/image/projection.h"
 
+#include <algorithm>
+#include <array>
+
 namespace kiln {
 
 double latlong_texel_solid_angle(Size size, int y) {
@@ -59,25 +62,89 @@ double triangle_solid_angle(const Vec3<double>& a, const Vec3<double>& b, const 
   return 2 * std::atan2(std::abs(dot(a, cross(b, c))), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
-}  // namespace
+/// A rectangle, cut once.
+struct Polygon {
+  std::array<Vec2<double>, 5> corners;
+  size_t count = 0;
 
-double octahedral_texel_solid_angle(int n, int x, int y) {
-  const auto corner = [n](int i, int j) {
-    return octahedral_to_direction(
-        Vec2<double>{static_cast<double>(i) / n, static_cast<double>(j) / n});
-  };
-  return triangle_solid_angle(corner(x, y), corner(x + 1, y), corner(x, y + 1)) +
-         triangle_solid_angle(corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1));
+  void add(Vec2<double> corner) { corners[count++] = corner; }
+};
+
+/// The part of a convex polygon in the plane where side * (x + y - 1) <= 0.
+Polygon cut_at_fold(const std::array<Vec2<double>, 4>& rectangle, double side) {
+  Polygon kept;
+  for (size_t i = 0; i < rectangle.size(); ++i) {
+    const Vec2<double> a = rectangle[i], b = rectangle[(i + 1) % rectangle.size()];
+    const double beyond_a = side * (a.x + a.y - 1), beyond_b = side * (b.x + b.y - 1);
+    if (beyond_a <= 0) kept.add(a);
+    if (beyond_a * beyond_b >= 0) continue;
+    const double t = beyond_a / (beyond_a - beyond_b);
+    kept.add({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+  }
+  return kept;
 }
 
-double cube_corner_solid_angle(int n, int i, int j) {
-  const double s = 2.0 * i / n - 1, t = 2.0 * j / n - 1;
+// Solid angle of the rectangle between two points of [0,1]^2, one quarter of an octahedral map with
+// +Y at the origin. On either side of the fold it lies on one face of the octahedron, where
+// straight lines are great circles.
+double quarter_solid_angle(Vec2<double> from, Vec2<double> to) {
+  const std::array<Vec2<double>, 4> rectangle = {from, {to.x, from.y}, to, {from.x, to.y}};
+  const auto direction = [](Vec2<double> at) {
+    return octahedral_to_direction({0.5 * (at.x + 1), 0.5 * (at.y + 1)});
+  };
+  double sum = 0;
+  for (const double side : {1.0, -1.0}) {
+    const Polygon part = cut_at_fold(rectangle, side);
+    if (part.count < 3) continue;
+    const Vec3<double> first = direction(part.corners[0]);
+    for (size_t i = 2; i < part.count; ++i) {
+      sum +=
+          triangle_solid_angle(first, direction(part.corners[i - 1]), direction(part.corners[i]));
+    }
+  }
+  return sum;
+}
+
+// Distance from the middle of a map of the edges of texel i, between them 0 where the middle is.
+std::array<double, 3> distances_from_middle(int n, int i) {
+  const double from = 2.0 * i / n - 1, to = 2.0 * (i + 1) / n - 1;
+  const double nearest = from < 0 && to > 0 ? 0 : std::min(std::abs(from), std::abs(to));
+  return {std::abs(from), nearest, std::abs(to)};
+}
+
+}  // namespace
+
+// A texel of an odd map may lie on both sides of the middle, where the octahedron has an edge: then
+// it has two parts each way, else one of them is empty.
+double octahedral_texel_solid_angle(int n, int x, int y) {
+  const auto s = distances_from_middle(n, x), t = distances_from_middle(n, y);
+  double sum = 0;
+  for (const double farthest_s : {s[0], s[2]}) {
+    for (const double farthest_t : {t[0], t[2]}) {
+      if (farthest_s <= s[1] || farthest_t <= t[1]) continue;
+      sum += quarter_solid_angle({s[1], t[1]}, {farthest_s, farthest_t});
+    }
+  }
+  return sum;
+}
+
+double cube_corner_solid_angle(double s, double t) {
   return std::atan2(s * t, std::sqrt(s * s + t * t + 1));
 }
 
+double cube_rectangle_solid_angle(Vec2<double> from, Vec2<double> to) {
+  const auto corner = cube_corner_solid_angle;
+  return corner(from.x, from.y) - corner(to.x, from.y) - corner(from.x, to.y) + corner(to.x, to.y);
+}
+
 double cube_texel_solid_angle(int n, int x, int y) {
-  return cube_corner_solid_angle(n, x, y) - cube_corner_solid_angle(n, x + 1, y) -
-         cube_corner_solid_angle(n, x, y + 1) + cube_corner_solid_angle(n, x + 1, y + 1);
+  const auto edge = [n](int i) { return 2.0 * i / n - 1; };
+  return cube_rectangle_solid_angle({edge(x), edge(y)}, {edge(x + 1), edge(y + 1)});
+}
+
+double cube_node_solid_angle(int n, int x, int y) {
+  const auto edge = [n](double i) { return std::clamp(2 * i / (n - 1) - 1, -1.0, 1.0); };
+  return cube_rectangle_solid_angle({edge(x - 0.5), edge(y - 0.5)}, {edge(x + 0.5), edge(y + 0.5)});
 }
 
 }  // namespace kiln

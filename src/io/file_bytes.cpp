@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "file_bytes.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -45,6 +48,16 @@ Bytes read_bytes(const fs::path& path, uintmax_t count) {
   return bytes;
 }
 
+void* mapped(const fs::path& path, size_t size) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) refuse(path, std::strerror(errno));
+  void* at = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
+  const int reason = errno;
+  close(file);
+  if (at == MAP_FAILED) refuse(path, std::strerror(reason));
+  return at;
+}
+
 }  // namespace
 
 Bytes first_bytes(const fs::path& path, size_t count) {
@@ -52,5 +65,24 @@ Bytes first_bytes(const fs::path& path, size_t count) {
 }
 
 Bytes all_bytes(const fs::path& path) { return read_bytes(path, size_of_readable(path)); }
+
+FileContents::FileContents(const fs::path& path) {
+  const auto size = static_cast<size_t>(size_of_readable(path));
+  if (size <= largest_held) {
+    held_ = read_bytes(path, size);
+    view_ = held_;
+  } else {
+    mapped_ = mapped(path, size);
+    view_ = {static_cast<const uint8_t*>(mapped_), size};
+  }
+}
+
+FileContents::~FileContents() {
+  if (mapped_ != nullptr) munmap(mapped_, view_.size());
+}
+
+void FileContents::let_go() const noexcept {
+  if (mapped_ != nullptr) madvise(mapped_, view_.size(), MADV_DONTNEED);
+}
 
 }  // namespace kiln::io

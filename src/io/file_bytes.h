@@ -18,4 +18,27 @@ Bytes first_bytes(const std::filesystem::path& path, size_t count);
 /// The whole file. @error as first_bytes
 Bytes all_bytes(const std::filesystem::path& path);
 
+/// The bytes of a file while it is being read. Small files are held, so that nobody can change them
+/// meanwhile; large ones are mapped, and need no memory of their own.
+class FileContents {
+ public:
+  static constexpr size_t largest_held = size_t{64} << 20;
+
+  /// @error as first_bytes
+  explicit FileContents(const std::filesystem::path& path);
+  ~FileContents();
+  FileContents(const FileContents&) = delete;
+  FileContents& operator=(const FileContents&) = delete;
+
+  ByteView view() const { return view_; }
+
+  /// Gives the pages of a mapped file back to the system. They return when they are read again.
+  void let_go() const noexcept;
+
+ private:
+  Bytes held_;
+  void* mapped_ = nullptr;
+  ByteView view_;
+};
+
 }  // namespace kiln::io

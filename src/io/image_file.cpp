@@ -214,7 +214,8 @@ FileFacts inspect_image(const fs::path& path) {
   return with_context(path.string(), [&] {
     const ReadLimits limits;
     if (format == "openexr") return io::inspect_openexr(path, limits);
-    const io::Bytes bytes = io::all_bytes(path);
+    const io::FileContents contents(path);
+    const io::ByteView bytes = contents.view();
     if (format == "hdr") return io::inspect_hdr(bytes, limits);
     if (format == "npy") return io::inspect_npy(bytes, limits);
     if (format == "env") return io::inspect_env(bytes, limits);
@@ -225,20 +226,32 @@ FileFacts inspect_image(const fs::path& path) {
   });
 }
 
-ImageFile read_image(const fs::path& path, const ReadLimits& limits) {
+ImageFile read_image(const fs::path& path, const ReadLimits& limits,
+                     const std::vector<std::string>& channels) {
   const std::string format = format_of(path);
-  return with_context(path.string(), [&] { return io::read_volume(path, format, limits).file; });
+  return with_context(path.string(), [&] {
+    const io::Reading reading{.limits = limits, .channels = channels};
+    ImageFile file = io::read_volume(path, format, reading).file;
+    std::erase_if(file.image.layers,
+                  [&](const Layer& layer) { return !reading.wants(layer.name); });
+    return file;
+  });
 }
 
 io::Volume io::read_volume(const fs::path& path, const std::string& format,
-                           const ReadLimits& limits) {
-  if (format == "openexr") return {read_openexr(path, limits)};
-  const Bytes bytes = all_bytes(path);
-  if (format == "hdr") return {read_hdr(bytes, limits)};
-  if (format == "npy") return read_npy_image(bytes, limits);
-  if (format == "env") return {read_env(bytes, limits)};
-  if (const auto texels = stored_texels(format, bytes)) return read_texels(*texels, bytes, limits);
-  return {read_by_openimageio(format, bytes, limits)};
+                           const Reading& reading) {
+  if (format == "openexr") return {read_openexr(path, reading)};
+  const FileContents contents(path);
+  const ByteView bytes = contents.view();
+  Reading in_pieces = reading;
+  in_pieces.let_go = [&] { contents.let_go(); };
+  if (format == "hdr") return {read_hdr(bytes, in_pieces)};
+  if (format == "npy") return read_npy_image(bytes, reading.limits);
+  if (format == "env") return {read_env(bytes, reading.limits)};
+  if (const auto texels = stored_texels(format, bytes)) {
+    return read_texels(*texels, bytes, reading.limits);
+  }
+  return {read_by_openimageio(format, bytes, in_pieces)};
 }
 
 const std::vector<WritableFormat>& writable_formats() {

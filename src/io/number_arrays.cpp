@@ -85,7 +85,8 @@ std::vector<NumberArray> arrays_of_text(io::ByteView bytes, const ReadLimits& li
   io::ScriptArrays found = io::read_script_arrays(text, least_numbers);
   for (const io::ScriptArrays::Encoded& image : found.images) {
     const auto* png = reinterpret_cast<const uint8_t*>(image.png.data());
-    NumberArray array = array_of({io::read_by_openimageio("png", {png, image.png.size()}, limits)});
+    NumberArray array =
+        array_of({io::read_by_openimageio("png", {png, image.png.size()}, {.limits = limits})});
     if (array.values.size() < least_numbers) continue;
     array.name = image.name;
     array.notes.emplace_back("a PNG in base64");
@@ -109,7 +110,7 @@ std::vector<NumberArray> read_arrays(const fs::path& path, const ReadLimits& lim
     if (!format) return arrays_of_text(io::all_bytes(path), limits);
     if (*format == "npy") return {io::read_npy_array(io::all_bytes(path), limits)};
     if (is_named_text(path, *format, first)) return arrays_of_text(io::all_bytes(path), limits);
-    return {array_of(io::read_volume(path, *format, limits))};
+    return {array_of(io::read_volume(path, *format, {.limits = limits}))};
   });
 }
 

@@ -47,13 +47,14 @@ void note_chromaticities(const Imf::Header& header, FileFacts& facts) {
       c.red.y, c.green.x, c.green.y, c.blue.x, c.blue.y, c.white.x, c.white.y));
 }
 
-void note_environment(const Imf::Header& header, Reading reading, FileFacts& facts) {
+void note_environment(const Imf::Header& header, OpenexrUse use, FileFacts& facts) {
   const auto* border = header.findTypedAttribute<Imf::IntAttribute>("oiio:sampleborder");
   facts.node_aligned = border != nullptr && border->value() == 1;
   if (!Imf::hasEnvmap(header)) return;
   const bool latlong = Imf::envmap(header) == Imf::ENVMAP_LATLONG;
-  if (latlong || reading == Reading::Texture) facts.node_aligned = true;
-  if (reading == Reading::Texture) return;
+  facts.envmap = latlong ? Envmap::LatLong : Envmap::Cube;
+  facts.node_aligned = true;
+  if (use == OpenexrUse::Texture) return;
   if (latlong) {
     facts.notes.emplace_back("lat-long environment with samples on the border (envmap)");
   } else {
@@ -117,7 +118,7 @@ std::string openexr_reason(const std::exception& error) {
   return quoted == std::string::npos ? text : text.substr(quoted + 3);
 }
 
-FileFacts openexr_facts(Imf::MultiPartInputFile& file, Reading reading, const ReadLimits& limits) {
+FileFacts openexr_facts(Imf::MultiPartInputFile& file, OpenexrUse use, const ReadLimits& limits) {
   const Imf::Header& header = file.header(0);
   if (header.hasType() && Imf::isDeepData(header.type())) {
     throw Error(Fault::Input, "holds deep data, expected flat pixels");
@@ -136,9 +137,9 @@ FileFacts openexr_facts(Imf::MultiPartInputFile& file, Reading reading, const Re
   if (file.parts() > 1) {
     facts.notes.push_back(fmt::format("has {} parts; the first is read", file.parts()));
   }
-  if (reading == Reading::Image) note_windows(header, facts);
+  if (use == OpenexrUse::Image) note_windows(header, facts);
   note_chromaticities(header, facts);
-  note_environment(header, reading, facts);
+  note_environment(header, use, facts);
   for (auto a = header.begin(); a != header.end(); ++a) {
     const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
     if (text != nullptr) facts.attributes.emplace_back(a.name(), text->value());

@@ -40,13 +40,13 @@ auto reading_openexr(Work&& work) {
 inline long long extent(int min, int max) { return static_cast<long long>(max) - min + 1; }
 
 /// What a part is read for.
-enum class Reading {
+enum class OpenexrUse {
   Image,    ///< its display window; notes say what else there is
   Texture,  ///< its data window with all levels
 };
 
 /// What the first part says of itself; the size is that of the display window.
 /// @error Fault::Input, without the path, for what is not read or too large
-FileFacts openexr_facts(Imf::MultiPartInputFile& file, Reading reading, const ReadLimits& limits);
+FileFacts openexr_facts(Imf::MultiPartInputFile& file, OpenexrUse use, const ReadLimits& limits);
 
 }  // namespace kiln::io

@@ -6,6 +6,7 @@
 
 #include "band_encoder.h"
 #include "kiln/io/image_file.h"
+#include "reading.h"
 
 namespace kiln::io {
 
@@ -13,7 +14,7 @@ namespace kiln::io {
 FileFacts inspect_openexr(const std::filesystem::path& path, const ReadLimits& limits);
 
 /// The first part, largest level, over its display window. @error Fault::Input, without the path
-ImageFile read_openexr(const std::filesystem::path& path, const ReadLimits& limits);
+ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading);
 
 /// Scan lines, ZIP or not packed, channels in the order of their names; Half or Float.
 /// @error Fault::Output and, for names that a file cannot hold, Fault::Usage; without the path

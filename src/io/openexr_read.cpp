@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kiln/core/error.h"
@@ -16,7 +17,7 @@ namespace {
 
 using Imath::Box2i;
 
-// Rows [first, first + rows) of the data window, all channels, each a plane of its own.
+// Rows [first, first + rows) of the data window, each channel a plane of its own.
 struct Block {
   int first = 0;
   int rows = 0;
@@ -29,12 +30,12 @@ struct Block {
   }
 };
 
-void read_block(Imf::InputPart& part, const FileFacts& facts, Block& block) {
+void read_block(Imf::InputPart& part, const std::vector<std::string>& channels, Block& block) {
   Imf::FrameBuffer frame;
   const Imath::V2i origin(part.header().dataWindow().min.x, block.first);
-  for (size_t c = 0; c < facts.channels.size(); ++c) {
-    frame.insert(facts.channels[c], Imf::Slice::Make(Imf::FLOAT, block.row(c, block.first), origin,
-                                                     block.width, block.rows));
+  for (size_t c = 0; c < channels.size(); ++c) {
+    frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, block.row(c, block.first), origin,
+                                               block.width, block.rows));
   }
   part.setFrameBuffer(frame);
   part.readPixels(block.first, block.first + block.rows - 1);
@@ -63,7 +64,7 @@ int rows_of_block(const Imf::Header& header) {
 
 // Planes are made once the first block could be read, so a header that promises much and has
 // nothing behind it costs little.
-Layers read_part(Imf::InputPart& part, const FileFacts& facts) {
+Layers read_part(Imf::InputPart& part, Size size, const std::vector<std::string>& channels) {
   const Box2i stored = part.header().dataWindow();
   const Box2i shown = part.header().displayWindow();
   Block block{stored.min.y, 0, stored.max.x - stored.min.x + 1, {}};
@@ -71,10 +72,10 @@ Layers read_part(Imf::InputPart& part, const FileFacts& facts) {
   Layers image;
   while (block.first <= stored.max.y) {
     block.rows = static_cast<int>(std::min<long long>(rows, extent(block.first, stored.max.y)));
-    block.texels.resize(facts.channels.size() * static_cast<size_t>(block.rows) *
+    block.texels.resize(channels.size() * static_cast<size_t>(block.rows) *
                         static_cast<size_t>(block.width));
-    read_block(part, facts, block);
-    if (image.layers.empty()) image = make_layers(facts.size, facts.channels);
+    read_block(part, channels, block);
+    if (image.layers.empty()) image = make_layers(size, channels);
     place_block(block, stored, shown, image);
     if (extent(block.first, stored.max.y) <= block.rows) break;
     block.first += block.rows;
@@ -98,18 +99,22 @@ bool covers_part(const Layers& image) {
 FileFacts inspect_openexr(const std::filesystem::path& path, const ReadLimits& limits) {
   return reading_openexr([&] {
     Imf::MultiPartInputFile file(path.c_str(), 0, false);
-    return openexr_facts(file, Reading::Image, limits);
+    return openexr_facts(file, OpenexrUse::Image, limits);
   });
 }
 
-ImageFile read_openexr(const std::filesystem::path& path, const ReadLimits& limits) {
+ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading) {
   return reading_openexr([&] {
     Imf::MultiPartInputFile file(path.c_str(), 0, false);
     ImageFile result;
-    result.facts = openexr_facts(file, Reading::Image, limits);
+    result.facts = openexr_facts(file, OpenexrUse::Image, reading.limits);
     if (!file.partComplete(0)) throw Error(Fault::Input, "truncated OpenEXR file");
     Imf::InputPart part(file, 0);
-    result.image = read_part(part, result.facts);
+    std::vector<std::string> wanted;
+    std::copy_if(result.facts.channels.begin(), result.facts.channels.end(),
+                 std::back_inserter(wanted),
+                 [&](const std::string& channel) { return reading.wants(channel); });
+    result.image = read_part(part, result.facts.size, wanted);
     if (covers_part(result.image)) {
       result.facts.notes.emplace_back("alpha is not 1 everywhere; colour is as stored beside it");
     }

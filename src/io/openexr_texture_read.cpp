@@ -148,13 +148,13 @@ TextureFile read_openexr_texture(const std::filesystem::path& path, const ReadLi
   return reading_openexr([&] {
     Imf::MultiPartInputFile file(path.c_str(), 0, false);
     TextureFile result;
-    result.facts = openexr_facts(file, Reading::Texture, limits);
+    result.facts = openexr_facts(file, OpenexrUse::Texture, limits);
     if (!file.partComplete(0)) throw Error(Fault::Input, "truncated OpenEXR file");
     const Imf::Header& header = file.header(0);
     if (has_levels(header)) {
       result.texture = read_levels(file, result.facts, limits);
     } else {
-      Layers image = read_openexr(path, limits).image;
+      Layers image = read_openexr(path, {.limits = limits}).image;
       if (is_cube(header)) check_cube(image.size);
       result.texture.levels.push_back(faces_of(std::move(image), is_cube(header)));
     }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -92,14 +93,48 @@ FileFacts facts_of(const std::string& format, ByteView bytes, const Opened& open
   return facts;
 }
 
-// A row of samples -> the row of each plane.
-void place_row(const std::byte* samples, const module::StoredImage& stored, int y, Layers& image) {
+/// The channels of a file that become planes, in its order.
+struct Picked {
+  std::vector<size_t> channels;
+  std::vector<std::string> names;
+};
+
+Picked pick(const std::vector<std::string>& names, const Reading& reading) {
+  Picked picked;
+  for (size_t c = 0; c < names.size(); ++c) {
+    if (!reading.wants(names[c])) continue;
+    picked.channels.push_back(c);
+    picked.names.push_back(names[c]);
+  }
+  return picked;
+}
+
+// Colour that was stored times alpha; 0 stays where nothing is left to divide.
+void divide_by_alpha(std::span<const float> alpha, int y, Layers& image) {
+  for (Layer& layer : image.layers) {
+    if (channel_rank(layer.name) >= channel_rank("A")) continue;
+    float* row = layer.plane.row(y);
+    for (size_t x = 0; x < alpha.size(); ++x) {
+      if (alpha[x] > 0.0f) row[x] /= alpha[x];
+    }
+  }
+}
+
+// A row of samples -> the row of each plane. TIFF says whether colour was multiplied by alpha.
+void place_row(const std::byte* samples, const module::StoredImage& stored, const Picked& picked,
+               int y, Layers& image) {
   const auto channels = static_cast<size_t>(stored.channels);
   const auto width = static_cast<size_t>(stored.width);
-  for (size_t c = 0; c < channels; ++c) {
-    load_samples(samples + c * sample_bytes(stored.type), stored.type, channels,
-                 {image.layers[c].plane.row(y), width});
+  const auto load = [&](size_t channel, std::span<float> row) {
+    load_samples(samples + channel * sample_bytes(stored.type), stored.type, channels, row);
+  };
+  for (size_t i = 0; i < picked.channels.size(); ++i) {
+    load(picked.channels[i], {image.layers[i].plane.row(y), width});
   }
+  if (stored.premultiplied == 0) return;
+  std::vector<float> alpha(width);
+  load(static_cast<size_t>(stored.alpha_channel), alpha);
+  divide_by_alpha(alpha, y, image);
 }
 
 int rows_of_block(const module::StoredImage& stored) {
@@ -109,8 +144,8 @@ int rows_of_block(const module::StoredImage& stored) {
 
 // Planes are made once the first block could be read, so a header that promises much and has
 // nothing behind it costs little.
-Layers read_pixels(const Opened& opened, const std::vector<std::string>& names,
-                   const std::string& format) {
+Layers read_pixels(const Opened& opened, const Picked& picked, const std::string& format,
+                   const Reading& reading) {
   const module::StoredImage& stored = opened.stored;
   const int block = rows_of_block(stored);
   const size_t row_bytes = static_cast<size_t>(stored.width) *
@@ -122,26 +157,14 @@ Layers read_pixels(const Opened& opened, const std::vector<std::string>& names,
     if (!openimageio().read_rows(opened.reader.get(), first, rows, samples.data())) {
       refuse(fmt::format("damaged {} file: {}", format, openimageio_error()));
     }
-    if (image.layers.empty()) image = make_layers({stored.width, stored.height}, names);
+    if (image.layers.empty()) image = make_layers({stored.width, stored.height}, picked.names);
     for (int i = 0; i < rows; ++i) {
-      place_row(samples.data() + static_cast<size_t>(i) * row_bytes, stored, first + i, image);
+      place_row(samples.data() + static_cast<size_t>(i) * row_bytes, stored, picked, first + i,
+                image);
     }
+    reading.let_go();
   }
   return image;
-}
-
-// TIFF says whether colour was multiplied by alpha; 0 stays where nothing is left to divide.
-void divide_by_alpha(int alpha_channel, Layers& image) {
-  const Plane alpha = image.layers[static_cast<size_t>(alpha_channel)].plane;
-  for (size_t c = 0; c < image.layers.size(); ++c) {
-    if (channel_rank(image.layers[c].name) >= channel_rank("A")) continue;
-    Plane& plane = image.layers[c].plane;
-    for (int y = 0; y < plane.height(); ++y) {
-      for (int x = 0; x < plane.width(); ++x) {
-        if (alpha.at(x, y) > 0.0f) plane.at(x, y) /= alpha.at(x, y);
-      }
-    }
-  }
 }
 
 }  // namespace
@@ -151,8 +174,8 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
   return facts_of(format, bytes, open(format, bytes, limits));
 }
 
-ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits) {
-  const Opened opened = open(format, bytes, limits);
+ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const Reading& reading) {
+  Opened opened = open(format, bytes, reading.limits);
   ImageFile file;
   file.facts = facts_of(format, bytes, opened);
   if (format == "jpeg" && !jpeg_is_complete(bytes)) {
@@ -161,13 +184,13 @@ ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const R
   if (format == "png" && !png_is_complete(bytes)) {
     refuse("truncated PNG file: its chunks do not run to IEND");
   }
+  if (format != "tiff") opened.stored.premultiplied = 0;
   try {
-    file.image = read_pixels(opened, file.facts.channels, format);
+    file.image = read_pixels(opened, pick(file.facts.channels, reading), format, reading);
   } catch (const std::bad_alloc&) {
     refuse("too large for memory");
   }
-  if (format == "tiff" && opened.stored.premultiplied != 0) {
-    divide_by_alpha(opened.stored.alpha_channel, file.image);
+  if (opened.stored.premultiplied != 0) {
     file.facts.notes.emplace_back("colour was stored multiplied by alpha; it was divided");
   }
   file.image = oriented(std::move(file.image), opened.stored.orientation);

@@ -7,6 +7,8 @@
 #include "band_encoder.h"
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
+#include "reading.h"
+#include "stored_planes.h"
 
 namespace kiln::io {
 
@@ -16,7 +18,7 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
                                  const ReadLimits& limits);
 
 /// @error Fault::Input, without the path
-ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const ReadLimits& limits);
+ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const Reading& reading);
 
 /// PNG, JPEG and TIFF. @error Fault::Output, without the path
 std::unique_ptr<BandEncoder> openimageio_encoder(const FileToWrite& file,

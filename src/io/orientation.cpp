@@ -39,6 +39,7 @@ Layers oriented(Layers stored, int orientation) {
   Layers upright{oriented(stored.size, orientation), {}};
   for (Layer& layer : stored.layers) {
     upright.layers.push_back({std::move(layer.name), turned(layer.plane, orientation)});
+    layer.plane = Plane();
   }
   return upright;
 }

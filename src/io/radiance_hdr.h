@@ -6,6 +6,7 @@
 #include "band_encoder.h"
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
+#include "reading.h"
 
 namespace kiln::io {
 
@@ -18,7 +19,7 @@ FileFacts inspect_hdr(ByteView bytes, const ReadLimits& limits);
 ///
 /// @error  Fault::Input, without the path, when the scan lines do not fill the claimed size
 /// @source Ward, "Real Pixels", Graphics Gems II, 1991; Radiance reference, "picture" file format
-ImageFile read_hdr(ByteView bytes, const ReadLimits& limits);
+ImageFile read_hdr(ByteView bytes, const Reading& reading);
 
 /// RGBE, run-length encoded; mantissas rounded to nearest.
 /// One channel is repeated, a missing third is 0. Attributes become comments "# name: text", which

@@ -208,8 +208,9 @@ FileFacts inspect_hdr(ByteView bytes, const ReadLimits& limits) {
   return facts_of(read_header(bytes, limits));
 }
 
-ImageFile read_hdr(ByteView bytes, const ReadLimits& limits) {
-  const Header header = read_header(bytes, limits);
+ImageFile read_hdr(ByteView bytes, const Reading& reading) {
+  constexpr int lines_at_once = 64;
+  const Header header = read_header(bytes, reading.limits);
   Cursor cursor(bytes, header.pixels_at);
   require_enough(header, cursor.left());
   ImageFile result{make_layers({header.line_length, header.lines}, {"R", "G", "B"}),
@@ -223,6 +224,7 @@ ImageFile read_hdr(ByteView bytes, const ReadLimits& limits) {
       read_pixel_line(cursor, line);
     }
     place_line(line, scale, y, result.image);
+    if (y % lines_at_once == 0) reading.let_go();
   }
   result.image = oriented(std::move(result.image), header.orientation);
   return result;

@@ -132,7 +132,7 @@ TextureFile read_format(const fs::path& path, const std::string& format, const R
       return io::read_stored_texture(*stored, bytes, limits);
     }
   }
-  return texture_of(io::read_volume(path, format, limits));
+  return texture_of(io::read_volume(path, format, {.limits = limits}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "reading.h"
 #include "texel_format.h"
 
 namespace kiln::io {
@@ -11,6 +12,6 @@ namespace kiln::io {
 /// read_image of a file whose contents are of this format, with the number of its slices.
 /// @error Fault::Input, without the path
 Volume read_volume(const std::filesystem::path& path, const std::string& format,
-                   const ReadLimits& limits);
+                   const Reading& reading);
 
 }  // namespace kiln::io

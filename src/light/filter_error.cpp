@@ -61,10 +61,6 @@ std::vector<TexelAt> choose_texels(const FilteredLevel& level, std::uint32_t spr
   return texels;
 }
 
-Vec3<double> direction_at(const FilteredLevel& level, const TexelAt& at) {
-  return direction_of(level.grid.layout, at.image, level.grid.point(at.x, at.y));
-}
-
 }  // namespace
 
 std::vector<FilterError> filter_errors(const Prefilter& prefilter,
@@ -77,7 +73,7 @@ std::vector<FilterError> filter_errors(const Prefilter& prefilter,
     texels.push_back(choose_texels(level, spread));
     probes.push_back({level.lobe, {}});
     for (const TexelAt& at : texels.back()) {
-      probes.back().directions.push_back(direction_at(level, at));
+      probes.back().directions.push_back(level.grid.direction(at.image, at.x, at.y));
     }
   }
   const auto truth = prefilter.brute_force(probes);

@@ -42,14 +42,15 @@ struct Row {
   }
 };
 
-Row sum_along_row(const ColorPlanes& colors, int y) {
-  const Size size = colors.size;
+/// @param radiance_at  texel (x, y)
+template <class Radiance>
+Row sum_along_row(Size size, int y, const Radiance& radiance_at) {
   const double theta = pi * (y + 0.5) / size.height;
   Row row{std::sin(theta), std::cos(theta), latlong_texel_solid_angle(size, y), {}};
   row.up_to.resize(static_cast<size_t>(size.width) + 1);
   for (int x = 0; x < size.width; ++x) {
     const double phi = 2 * pi * ((x + 0.5) / size.width - 0.5);
-    const Vec3<double> radiance = colors.at(x, y);
+    const Vec3<double> radiance = radiance_at(x, y);
     const auto i = static_cast<size_t>(x);
     row.up_to[i + 1] =
         row.up_to[i] + Moments{radiance, radiance * std::cos(phi), radiance * std::sin(phi)};
@@ -74,6 +75,33 @@ Vec3<double> sum_above_horizon(const Row& row, const Vec3<double>& n) {
     sum = row.arc(first, count);
   }
   return (sum.plain * a + (sum.cosine * n.z - sum.sine * n.x) * row.sine) * row.solid_angle;
+}
+
+/// Irradiance over pi of each normal.
+template <class Radiance>
+std::vector<Vec3<double>> sums_above_horizons(Size size, std::span<const Vec3<double>> normals,
+                                              const Radiance& radiance_at) {
+  constexpr int rows_at_once = 16;
+  constexpr int normals_at_once = 64;
+  const auto count = static_cast<int>(normals.size());
+  std::vector<Vec3<double>> irradiance(normals.size());
+  std::vector<Row> rows(rows_at_once);
+  for (int y = 0; y < size.height; y += rows_at_once) {
+    const int found = std::min(rows_at_once, size.height - y);
+    for_rows(found, [&](int i) {
+      rows[static_cast<size_t>(i)] = sum_along_row(size, y + i, radiance_at);
+    });
+    for_rows((count + normals_at_once - 1) / normals_at_once, [&](int block) {
+      const int end = std::min(count, (block + 1) * normals_at_once);
+      for (int k = block * normals_at_once; k < end; ++k) {
+        const auto at = static_cast<size_t>(k);
+        for (int i = 0; i < found; ++i) {
+          irradiance[at] += sum_above_horizon(rows[static_cast<size_t>(i)], normals[at]) * (1 / pi);
+        }
+      }
+    });
+  }
+  return irradiance;
 }
 
 }  // namespace
@@ -104,35 +132,19 @@ Vec3<double> irradiance_over_pi(const Layers& latlong, const Vec3<double>& n) {
 
 std::vector<Vec3<double>> irradiance_over_pi(const Layers& latlong,
                                              std::span<const Vec3<double>> normals) {
-  constexpr int rows_at_once = 16;
-  constexpr int normals_at_once = 64;
   const ColorPlanes colors = color_planes(latlong);
-  const auto count = static_cast<int>(normals.size());
-  std::vector<Vec3<double>> irradiance(normals.size());
-  std::vector<Row> rows(rows_at_once);
-  for (int y = 0; y < colors.size.height; y += rows_at_once) {
-    const int found = std::min(rows_at_once, colors.size.height - y);
-    for_rows(found, [&](int i) { rows[static_cast<size_t>(i)] = sum_along_row(colors, y + i); });
-    for_rows((count + normals_at_once - 1) / normals_at_once, [&](int block) {
-      const int end = std::min(count, (block + 1) * normals_at_once);
-      for (int k = block * normals_at_once; k < end; ++k) {
-        const auto at = static_cast<size_t>(k);
-        for (int i = 0; i < found; ++i) {
-          irradiance[at] += sum_above_horizon(rows[static_cast<size_t>(i)], normals[at]) * (1 / pi);
-        }
-      }
-    });
-  }
-  return irradiance;
+  return sums_above_horizons(latlong.size, normals, [&](int x, int y) { return colors.at(x, y); });
 }
 
 // The sum over texel centres gives a constant environment up to their spacing; dividing by what it
 // makes of the constant 1 gives it exactly.
 std::vector<Vec3<double>> normalised_irradiance(const Layers& latlong,
                                                 std::span<const Vec3<double>> normals) {
-  Layers white{latlong.size, {}};
-  white.add("Y", 1.0f);
-  const auto constant = irradiance_over_pi(white, normals);
+  const Plane* weights = latlong.find("W");
+  const auto constant = sums_above_horizons(latlong.size, normals, [&](int x, int y) {
+    const double weight = weights ? weights->at(x, y) : 1;
+    return Vec3<double>{weight, weight, weight};
+  });
   auto irradiance = irradiance_over_pi(latlong, normals);
   for (size_t i = 0; i < irradiance.size(); ++i) {
     irradiance[i] = irradiance[i] * (1 / constant[i].x);

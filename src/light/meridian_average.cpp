@@ -228,7 +228,7 @@ SideStrips strips_of_side(const Band& band, int size) {
 
 }  // namespace
 
-void average_over_sides(const ColorPlanes& source, const PowerLimit& limit,
+void average_over_sides(const ColorPlanes& source, const PowerLimit& limit, double turns,
                         std::vector<Layers>& faces) {
   const int size = faces.front().size.width;
   const Source seen(source, source.size.height / 4, limit);
@@ -239,14 +239,15 @@ void average_over_sides(const ColorPlanes& source, const PowerLimit& limit,
       columns.columns.push_back({&faces[static_cast<size_t>(side.face)], x});
     }
     for (size_t i = 0; i < strips.edges.size(); ++i) {
-      columns.strips.push_back({side.middle - strips.azimuths_rad[i + 1] / (2 * pi),
-                                side.middle - strips.azimuths_rad[i] / (2 * pi), strips.edges[i]});
+      columns.strips.push_back({side.middle + turns - strips.azimuths_rad[i + 1] / (2 * pi),
+                                side.middle + turns - strips.azimuths_rad[i] / (2 * pi),
+                                strips.edges[i]});
     }
   }
   fill_columns(seen, columns);
 }
 
-void average_over_latlong(const ColorPlanes& source, Layers& image) {
+void average_over_latlong(const ColorPlanes& source, double turns, Layers& image) {
   const Size size = image.size;
   const Source seen(source, 0, {{INFINITY, INFINITY, INFINITY}});
   std::vector<double> heights;
@@ -255,7 +256,8 @@ void average_over_latlong(const ColorPlanes& source, Layers& image) {
   Columns columns;
   for (int x = 0; x < size.width; ++x) {
     columns.columns.push_back({&image, x});
-    columns.strips.push_back({static_cast<double>(x) / size.width, (x + 1.0) / size.width, edges});
+    columns.strips.push_back(
+        {turns + static_cast<double>(x) / size.width, turns + (x + 1.0) / size.width, edges});
   }
   fill_columns(seen, columns);
 }

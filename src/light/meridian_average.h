@@ -15,13 +15,13 @@ namespace kiln {
 // sums over z = cos(theta) between its edges. What one texel gains its neighbour loses, so no power
 // is lost in between.
 
-/// Over the four side faces, radiance above the limit counting as the limit; the other two stay as
-/// they are.
+/// Over the four side faces of an environment turned by so much, radiance above the limit counting
+/// as the limit; the other two stay as they are.
 /// @param faces  six, of one size
-void average_over_sides(const ColorPlanes& source, const PowerLimit& limit,
+void average_over_sides(const ColorPlanes& source, const PowerLimit& limit, double turns,
                         std::vector<Layers>& faces);
 
 /// Over the texels of a lat-long image.
-void average_over_latlong(const ColorPlanes& source, Layers& image);
+void average_over_latlong(const ColorPlanes& source, double turns, Layers& image);
 
 }  // namespace kiln

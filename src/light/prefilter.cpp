@@ -83,6 +83,18 @@ int highest_of(const std::vector<ZonalKernel>& kernels) {
   return order;
 }
 
+void divide(const std::vector<Layers>& by, std::vector<Layers>& images) {
+  for (size_t i = 0; i < images.size(); ++i) {
+    for_rows(images[i].size.height, [&](int y) {
+      for (size_t c = 0; c < 3; ++c) {
+        float* row = images[i].layers[c].plane.row(y);
+        const float* divisor = by[i].layers[c].plane.row(y);
+        for (int x = 0; x < images[i].size.width; ++x) row[x] /= divisor[x];
+      }
+    });
+  }
+}
+
 }  // namespace
 
 Refinement refinement_for(Size source, int order) {
@@ -102,6 +114,8 @@ struct Prefilter::Expanded {
   PointMasses hot;
   Expansion expansion;
   std::array<bool, 3> never_negative;
+  Layers weights;  ///< plane W of the source, where it has one
+  std::unique_ptr<Prefilter> of_weights;
 
   const ZonalKernel& kernel_of(const Lobe& lobe) const {
     const auto found = std::find(lobes.begin(), lobes.end(), lobe);
@@ -141,6 +155,10 @@ Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
   made.hot = masses_of(made.source.size, hot_texels(made.source, limit));
   made.expansion = analyse(made.source, limit, made.columns);
   made.never_negative = never_negative(made.source);
+  if (const Plane* weights = latlong.find("W")) {
+    made.weights = {latlong.size, {{"Y", *weights}}};
+    made.of_weights = std::make_unique<Prefilter>(made.weights, lobes);
+  }
 }
 
 Size Prefilter::source_size() const { return expanded_->source.size; }
@@ -173,6 +191,7 @@ std::vector<Layers> Prefilter::filter(const Lobe& lobe, const SphereGrid& grid) 
       }
     }
   });
+  if (expanded_->of_weights) divide(expanded_->of_weights->filter(lobe, grid), images);
   return images;
 }
 

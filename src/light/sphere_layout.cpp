@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/light/sphere_layout.h"
 
+#include "kiln/light/turn.h"
 #include "kiln/parallel/rows.h"
 
 namespace kiln {
@@ -38,11 +39,16 @@ Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv) {
   return {};
 }
 
+Vec3<double> SphereGrid::direction(int image, int x, int y) const {
+  return Turn(rotate_deg).to_image(direction_of(layout, image, point(x, y)));
+}
+
 void row_directions(const SphereGrid& grid, int image, int y,
                     std::vector<Vec3<double>>& directions) {
   directions.clear();
+  const Turn turn(grid.rotate_deg);
   for (int x = 0; x < grid.image_size().width; ++x) {
-    directions.push_back(direction_of(grid.layout, image, grid.point(x, y)));
+    directions.push_back(turn.to_image(direction_of(grid.layout, image, grid.point(x, y))));
   }
 }
 
@@ -55,7 +61,7 @@ std::vector<double> face_solid_angles(int n) {
   for_rows(n + 1, [&](int j) {
     for (int i = 0; i <= n; ++i) {
       corner[static_cast<size_t>(j) * corners + static_cast<size_t>(i)] =
-          cube_corner_solid_angle(n, i, j);
+          cube_corner_solid_angle(2.0 * i / n - 1, 2.0 * j / n - 1);
     }
   });
   std::vector<double> found(static_cast<size_t>(n) * static_cast<size_t>(n));

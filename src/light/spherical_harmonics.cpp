@@ -108,7 +108,8 @@ std::vector<double> harmonics_at(int order, const Vec3<double>& d) {
   return values;
 }
 
-SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes) {
+SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes,
+                              double rotate_deg) {
   if (order < 0) throw Error(Fault::Usage, "spherical harmonics of order " + std::to_string(order));
   const ColorPlanes colors = color_planes(latlong);
   const Size size = colors.size;
@@ -120,7 +121,8 @@ SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes
     const double solid_angle = latlong_texel_solid_angle(size, y);
     for (size_t p = 0; p < masses.size(); ++p) {
       const Vec3<double> mass = masses[p] * solid_angle;
-      const double u = 0.5 + static_cast<double>(p) / static_cast<double>(masses.size());
+      const double u =
+          0.5 + static_cast<double>(p) / static_cast<double>(masses.size()) - rotate_deg / 360;
       const Vec3<double> d = latlong_to_direction(Vec2<double>{u, (y + 0.5) / size.height});
       fill_harmonics(order, axes.to_engine(d), values);
       for (size_t i = 0; i < values.size(); ++i) {

@@ -28,8 +28,11 @@ constexpr double most_source_texels = 4;
 /// What hot texels have above the limit, dealt out to the texels that points in them lie in.
 class Spill {
  public:
-  Spill(SphereLayout layout, const std::vector<Layers>& images)
-      : layout_(layout), size_(images.front().size), power_(images.size()) {}
+  Spill(const SphereGrid& grid, const std::vector<Layers>& images)
+      : layout_(grid.layout),
+        turns_(grid.rotate_deg / 360),
+        size_(images.front().size),
+        power_(images.size()) {}
 
   void deal(Size source, const HotTexel& texel, const PowerLimit& limit);
   void add_to(int image, Layers& to) const;
@@ -38,6 +41,7 @@ class Spill {
   void add(const Vec3<double>& d, const std::array<double, 3>& power);
 
   SphereLayout layout_;
+  double turns_;
   Size size_;
   std::vector<std::vector<std::array<double, 3>>> power_;  ///< [images][texels], empty while dark
 };
@@ -53,7 +57,7 @@ void Spill::deal(Size source, const HotTexel& texel, const PowerLimit& limit) {
   const double top = std::cos(pi * texel.y / source.height);
   const double bottom = std::cos(pi * (texel.y + 1) / source.height);
   for (int i = 0; i < n; ++i) {
-    const double phi_rad = 2 * pi * ((texel.x + (i + 0.5) / n) / source.width - 0.5);
+    const double phi_rad = 2 * pi * ((texel.x + (i + 0.5) / n) / source.width - turns_ - 0.5);
     const double sine = std::sin(phi_rad), cosine = std::cos(phi_rad);
     for (int j = 0; j < n; ++j) {
       const double y = lerp(top, bottom, (j + 0.5) / n);
@@ -208,8 +212,11 @@ Point point_of(SphereLayout layout, int image, const Vec2<WideFloat>& uv) {
   return {d * inverse, inverse * inverse * inverse};
 }
 
-Vec2<WideFloat> in_texels(Size size, const Vec2<WideFloat>& uv) {
-  return {fma(uv.x, WideFloat(static_cast<float>(size.width)), WideFloat(0.5f)),
+// A point of the world in the texels of an image turned by so much.
+Vec2<WideFloat> in_texels(Size size, const Vec2<WideFloat>& uv, double turns) {
+  const WideFloat turned = uv.x + WideFloat(static_cast<float>(turns));
+  const WideFloat u = turned - floor(turned);
+  return {fma(u, WideFloat(static_cast<float>(size.width)), WideFloat(0.5f)),
           fma(uv.y, WideFloat(static_cast<float>(size.height)), WideFloat(0.5f))};
 }
 
@@ -228,7 +235,8 @@ Vec3<WideFloat> average_at(const Points& points, const SphereGrid& grid, int ima
       const WideFloat u =
           fma(first, WideFloat(static_cast<float>(step.x)), WideFloat(static_cast<float>(from)));
       const Point point = point_of(grid.layout, image, {u, WideFloat(static_cast<float>(v))});
-      sum += points.texels.bilinear(in_texels(points.texels.size(), latlong_of(point.direction))) *
+      sum += points.texels.bilinear(in_texels(points.texels.size(), latlong_of(point.direction),
+                                              grid.rotate_deg / 360)) *
              point.weight;
       weights += point.weight;
     }
@@ -303,8 +311,8 @@ void average_images(const Layers& latlong, const SphereGrid& grid, std::vector<L
   const Points points = make_points(latlong, limit, hot, source_texels);
   const bool sides_apart =
       grid.layout == SphereLayout::Cube && !grid.at_nodes && source_texels >= 1;
-  if (sides_apart) average_over_sides(source, limit, images);
-  Spill spill(grid.layout, images);
+  if (sides_apart) average_over_sides(source, limit, grid.rotate_deg / 360, images);
+  Spill spill(grid, images);
   for (const HotTexel& texel : hot) spill.deal(latlong.size, texel, limit);
   std::vector<bool> by_points;
   for (size_t i = 0; i < images.size(); ++i) {
@@ -324,7 +332,7 @@ std::vector<Layers> average_over_texels(const Layers& latlong, const SphereGrid&
     images.push_back(make_layers(grid.image_size(), {"R", "G", "B"}));
   }
   if (grid.layout == SphereLayout::LatLong && !grid.at_nodes) {
-    average_over_latlong(color_planes(latlong), images.front());
+    average_over_latlong(color_planes(latlong), grid.rotate_deg / 360, images.front());
   } else {
     average_images(latlong, grid, images);
   }

@@ -73,17 +73,26 @@ bool has_channels(const std::vector<std::string>& names, std::string_view channe
                      [&](char wanted) { return find_channel(names, wanted).has_value(); });
 }
 
-Layers pick_channels(const Layers& file, std::string_view channels) {
-  const std::vector<std::string> names = channel_names(file);
-  Layers picked{file.size, {}};
+std::vector<std::string> picked_names(const std::vector<std::string>& names,
+                                      std::string_view channels) {
+  std::vector<std::string> picked;
   for (const char wanted : channels) {
     const auto found = find_channel(names, wanted);
     if (!found) {
       throw Error(Fault::Input,
                   fmt::format("no channel '{}', the image has {}", wanted, fmt::join(names, ", ")));
     }
-    const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(wanted)));
-    picked.layers.push_back({std::string(1, upper), file.layers[*found].plane});
+    picked.push_back(names[*found]);
+  }
+  return picked;
+}
+
+Layers pick_channels(const Layers& file, std::string_view channels) {
+  const std::vector<std::string> names = picked_names(channel_names(file), channels);
+  Layers picked{file.size, {}};
+  for (size_t i = 0; i < names.size(); ++i) {
+    const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(channels[i])));
+    picked.layers.push_back({std::string(1, upper), *file.find(names[i])});
   }
   return picked;
 }

@@ -6,35 +6,13 @@
 #include <algorithm>
 #include <map>
 
+#include "color_reading.h"
 #include "kiln/io/image_file.h"
 
 namespace kiln {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* linear_space = "lin_rec709_scene";
-constexpr const char* encoded_space = "srgb_rec709_scene";
-
-// Floating-point files are taken as linear, integers as sRGB, unless somebody says otherwise.
-std::string space_of(const std::string& stated, PixelType type) {
-  if (!stated.empty()) return stated;
-  return type == PixelType::Half || type == PixelType::Float ? linear_space : encoded_space;
-}
-
-std::string conversion_text(const std::string& from, const std::string& to) {
-  return from == to ? from : from + " -> " + to;
-}
-
-bool has_rgb(const Layers& image) { return image.find("R") && image.find("G") && image.find("B"); }
-
-// A single channel in the place of a colour is grey.
-Layers as_rgb(Layers picked) {
-  if (picked.layers.size() != 1) return picked;
-  Layers grey{picked.size, {}};
-  for (const char* name : {"R", "G", "B"}) grey.layers.push_back({name, picked.layers[0].plane});
-  return grey;
-}
 
 /// One set being loaded: each file is read once, however many slots share it.
 class SetLoader {
@@ -180,28 +158,6 @@ class SetLoader {
 LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorConfig& config) {
   if (set.fault) throw Error(*set.fault);
   return SetLoader(set, color, config).load();
-}
-
-LoadedLight load_light(const EnvironmentChoice& environment, const ColorChoice& color,
-                       const ColorConfig& config, const LightSettings& settings) {
-  const std::string path = environment.path.string();
-  ImageFile file = read_image(environment.path);
-  Layers image = with_context(path, [&] {
-    return has_rgb(file.image) ? pick_channels(file.image, "rgb")
-                               : as_rgb(pick_channels(file.image, "r"));
-  });
-  file.image = {};
-  const std::string from = space_of(environment.color_space, file.facts.type);
-  config.convert(image, from, color.working);
-  LightSettings chosen = settings;
-  chosen.node_aligned = file.facts.node_aligned;
-  chosen.rotate_deg = environment.rotate;
-  chosen.fix = environment.fix;
-  LoadedLight loaded;
-  loaded.made = with_context(path, [&] { return make_light(std::move(image), chosen); });
-  loaded.record = {environment.name, path, conversion_text(from, color.working), file.facts.notes,
-                   loaded.made.notes};
-  return loaded;
 }
 
 }  // namespace kiln

@@ -42,6 +42,11 @@ size_t index_of(const std::string& text, const std::vector<std::string>& words) 
   return static_cast<size_t>(found - words.begin());
 }
 
+template <class Names>
+std::vector<std::string> words(const Names& names) {
+  return {names.begin(), names.end()};
+}
+
 std::vector<std::string> scalars(const Node& node) {
   if (node.kind == Node::Kind::Scalar) return {node.text};
   std::vector<std::string> texts;
@@ -81,6 +86,11 @@ EnvironmentChoice read_environment(const Entry& entry, const Reading& reading) {
   environment.place = entry.value.place;
   environment.path = joined(reading.folder, path_text(entry.value));
   environment.color_space = text_at(entry.value, "color_space");
+  environment.projection = static_cast<Arrangement>(
+      index_of(text_at(entry.value, "projection", "auto"), words(arrangement_names)));
+  environment.mirror =
+      static_cast<Mirror>(index_of(text_at(entry.value, "mirror", "none"), words(mirror_names)));
+  environment.up = static_cast<Up>(index_of(text_at(entry.value, "up", "y"), words(up_names)));
   environment.rotate = parse_number({}, text_at(entry.value, "rotate", "0"));
   environment.fix = kebab(text_at(entry.value, "fix", environment.fix));
   return environment;
@@ -271,9 +281,8 @@ Pipeline read_root(const Node& root, const Reading& reading) {
   return pipeline;
 }
 
-}  // namespace
-
-BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& keys) {
+Node checked_block(const std::vector<std::pair<std::string, std::string>>& keys,
+                   const std::string& name) {
   Node block;
   block.kind = Node::Kind::Block;
   for (const auto& [key, text] : keys) {
@@ -283,9 +292,24 @@ BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& k
     entry.value.text = text;
   }
   Mistakes mistakes;
-  check(block, "bake", mistakes);
+  check(block, name, mistakes);
   mistakes.raise();
-  return read_bake(block);
+  return block;
+}
+
+}  // namespace
+
+BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& keys) {
+  return read_bake(checked_block(keys, "bake"));
+}
+
+EnvironmentChoice environment_choice(const std::string& name,
+                                     const std::vector<std::pair<std::string, std::string>>& keys) {
+  Entry entry;
+  entry.key = name;
+  entry.value = checked_block(keys, "environment");
+  Mistakes mistakes;
+  return read_environment(entry, {{}, mistakes});
 }
 
 std::string chosen_config(const std::string& asked_for, const std::string& of_file) {

@@ -118,8 +118,11 @@ class Runner {
 
   LoadedLight load(size_t environment) {
     LightSettings settings;
+    settings.sampled = false;
     for (const Task& task : plan_.tasks) {
-      if (task.environment == environment && task.needs.prefiltered) settings.prefiltered = true;
+      if (task.environment != environment) continue;
+      settings.sampled |= task.needs.sampled;
+      settings.prefiltered |= task.needs.prefiltered;
     }
     LoadedLight loaded =
         load_light(plan_.environments[environment], plan_.color, config_, settings);

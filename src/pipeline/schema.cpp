@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "kiln/image/arrangement.h"
 #include "kiln/material/naming.h"
 
 namespace kiln {
@@ -116,12 +117,20 @@ BlockFacts color_block() {
 
 BlockFacts environment_block() {
   return {"environment",
-          "a lat-long image of distant light",
-          {required(text("path", "image file, relative to this file")),
+          "an image, or six, of distant light",
+          {required(text("path",
+                         "image file, relative to this file; of six faces the name with <FACE> in "
+                         "it, or their folder")),
            text("color_space", "its colour space, if not by type: float linear, integers sRGB"),
+           word("projection", words(arrangement_names), "auto",
+                "how the sphere lies in it; auto: what the file says of itself, else by the ratio "
+                "of its sides"),
+           word("mirror", words(mirror_names), "none",
+                "x: exchanges +X and -X, for images of the other handedness"),
+           word("up", words(up_names), "y", "z: its +Z points up and becomes +Y"),
            number("rotate", {}, "[degree]", "turns the environment, positive +Z toward +X", "0"),
            word("fix", {"none", "zero", "neighbors"}, "neighbors",
-                "what becomes of texels that are NaN or infinite")},
+                "what becomes of texels that are NaN or infinite; none: an error")},
           "path"};
 }
 

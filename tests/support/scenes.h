@@ -61,7 +61,7 @@ inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const S
   LightSettings light_settings;
   light_settings.prefiltered = recipe->needs().prefiltered;
   light_settings.size = 32;
-  const LightMade made = make_light(latlong, light_settings);
+  const LightMade made = make_light(latlong_image(latlong), light_settings);
   static std::map<std::string, std::shared_ptr<const AlbedoTable>> albedos;
   auto& albedo = albedos[surface.distribution + surface.masking];
   if (!albedo && !shared) albedo = make_albedo_table(surface);

@@ -44,7 +44,8 @@ struct BakeFacts {
 struct Needs {
   bool material = false;     ///< the SVBRDF of the set
   bool light = false;        ///< an environment (key `env`)
-  bool prefiltered = false;  ///< its specular chain and irradiance too
+  bool sampled = false;      ///< its distribution of directions too
+  bool prefiltered = false;  ///< and its specular chain and irradiance
   bool albedo = false;       ///< the directional-albedo table of the model
 };
 /// What a reader gets of an image that is stored as a pixel type of that name.

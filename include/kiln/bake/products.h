@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kiln/bake/surface_choice.h"
-#include "kiln/image/layers.h"
+#include "kiln/image/sphere_image.h"
 
 namespace kiln {
 
@@ -16,11 +16,14 @@ class AlbedoTable;
 class Light;
 
 struct LightSettings {
-  bool node_aligned = false;
-  double rotate_deg = 0;  ///< positive turns +Z toward +X [degree]
+  Mirror mirror = Mirror::None;  ///< of the image's own directions
+  Up up = Up::Y;                 ///< of these too
+  double rotate_deg = 0;         ///< after both; positive turns +Z toward +X [degree]
   std::string fix = "neighbors";
-  bool prefiltered = false;  ///< also make the specular chain and the irradiance
-  int size = 256;            ///< edge of a cube face of the chain [texel]
+  bool sampled = true;             ///< make the distribution that directions are drawn from
+  bool prefiltered = false;        ///< also make the specular chain and the irradiance
+  int size = 256;                  ///< edge of a cube face of the chain [texel]
+  std::vector<std::string> notes;  ///< how the image was read, repeated in what is made of it
 };
 
 struct LightMade {
@@ -29,8 +32,9 @@ struct LightMade {
       notes;  ///< counts of NaN, Inf, negative radiance and what became of them
 };
 
-/// @param latlong  planes R G B, linear, in the working space
-LightMade make_light(Layers latlong, const LightSettings& settings);
+/// @param image  planes R G B, linear, in the working space; its own `up` is Y
+/// @error Fault::Input when radiance is not finite and is not to be fixed
+LightMade make_light(SphereImage image, const LightSettings& settings);
 
 /// The albedo table of the lobe of these models, which energy terms, coupling and split-sum
 /// previews read.

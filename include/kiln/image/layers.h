@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,14 @@ struct Oddities {
   long long negative = 0;
 };
 Oddities count_oddities(const Layers& image);
+
+/// A texel of one channel.
+struct TexelPlace {
+  std::string channel;
+  int x = 0, y = 0;
+};
+
+/// The first texel that is not finite, channel by channel, row by row.
+std::optional<TexelPlace> first_not_finite(const Layers& image);
 
 }  // namespace kiln

@@ -69,11 +69,20 @@ Vec2<double> direction_to_octahedral(const Vec3<double>& d);
 /// Exact solid angle of texel (x, y) of an octahedral map with edge n [sr].
 double octahedral_texel_solid_angle(int n, int x, int y);
 
-/// Exact solid angle between the middle lines of a cube face and the corner (i, j) of its texels,
-/// with the sign of the quarter it lies in; a texel's is a sum over its four corners [sr].
-double cube_corner_solid_angle(int n, int i, int j);
+/// Exact solid angle of the rectangle between the middle of a cube face and the point (s, t) in
+/// [-1,1]^2, negative where one of both is: a texel's is a sum over its four corners [sr].
+double cube_corner_solid_angle(double s, double t);
 
 /// Exact solid angle of texel (x, y) of a cube face with edge n [sr].
 double cube_texel_solid_angle(int n, int x, int y);
+
+/// Exact solid angle of the rectangle between two points of a cube face, each in [-1,1]^2 [sr].
+double cube_rectangle_solid_angle(Vec2<double> from, Vec2<double> to);
+
+/// Exact solid angle of what is nearest to sample (x, y) of a cube face with n samples along an
+/// edge, the outer ones on it: a rectangle, cut at the edges. The other faces that hold such an
+/// outer sample have the rest of it [sr].
+/// @valid n >= 2
+double cube_node_solid_angle(int n, int x, int y);
 
 }  // namespace kiln

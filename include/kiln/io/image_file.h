@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/image/arrangement.h"
 #include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
 
@@ -48,14 +49,15 @@ struct FileFacts {
   /// As tagged by the file, never trusted for data: a name of the built-in colour configuration,
   /// or "icc: DESCRIPTION". Empty when the file does not say; formats' customs are not a tag.
   std::optional<std::string> color_space_tag;
-  bool node_aligned = false;       ///< lat-long (of a texture: or cube) with samples on the border
+  Envmap envmap = Envmap::None;    ///< what an OpenEXR file says it is
+  bool node_aligned = false;       ///< an environment with samples on its borders
   Attributes attributes;           ///< text metadata, of EXR, HDR, PNG, TIFF, KTX and .env
   std::vector<std::string> notes;  ///< what had to be decided or repaired while reading
 };
 
 struct ImageFile {
-  Layers image;  ///< values as stored (integers scaled to [0,1]), alpha unassociated
-  FileFacts facts;
+  Layers image;     ///< values as stored (integers scaled to [0,1]), alpha unassociated
+  FileFacts facts;  ///< of the whole file, however many of its channels were wanted
 };
 
 struct ReadLimits {
@@ -78,8 +80,12 @@ FileFacts inspect_image(const std::filesystem::path& path);
 /// custom is premultiplied colour, yet maps whose A is no coverage are common.
 ///
 /// May be called from many threads at once; starts no thread of its own.
+/// What is returned is all that is held, beside a few rows: files are not held themselves, except
+/// small ones and JPEG.
+/// @param channels  names of the channels wanted, in any order; the others are not held. Empty: all
 /// @error Fault::Input when missing, empty, truncated, unreadable or too large
-ImageFile read_image(const std::filesystem::path& path, const ReadLimits& limits = {});
+ImageFile read_image(const std::filesystem::path& path, const ReadLimits& limits = {},
+                     const std::vector<std::string>& channels = {});
 
 /// What a written file says about its colours, in formats that can say it (PNG).
 enum class ColorTag {

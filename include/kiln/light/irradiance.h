@@ -28,7 +28,7 @@ std::vector<Vec3<double>> irradiance_over_pi(const Layers& latlong,
                                              std::span<const Vec3<double>> normals);
 
 /// The same divided by what the sum makes of the constant 1: a constant environment gives that
-/// constant, whatever its size.
+/// constant, whatever its size. A plane W is what the constant is there (point_masses_of).
 std::vector<Vec3<double>> normalised_irradiance(const Layers& latlong,
                                                 std::span<const Vec3<double>> normals);
 

@@ -36,6 +36,9 @@ struct LobeProbe {
 /// that is a product band by band; the few texels that hold so much power that the cut of the
 /// expansion would show around them are left out of it and added exactly.
 ///
+/// A fourth plane W may hold point masses of radiance 1 (point_masses_of): then values are divided
+/// by what the sum makes of these, instead of the texels' own solid angles.
+///
 /// At alpha = 1 the lobe of GGX is the clamped cosine: filtering with it gives irradiance over pi.
 /// @accuracy  1e-5 rms of the mean radiance, 1e-3 at the peak of a single-texel sun
 /// @source    Walter et al. 2007 (GGX); Karis 2013 (n = v = r)

@@ -23,18 +23,21 @@ struct SphereGrid {
   SphereLayout layout = SphereLayout::Cube;
   int size = 256;         ///< N
   bool at_nodes = false;  ///< the outermost samples lie on the borders, else all at texel centres
+  double rotate_deg = 0;  ///< of the environment, positive turns +Z toward +X [degree]
 
   /// 6 of a cube, else 1.
   int images() const { return layout == SphereLayout::Cube ? 6 : 1; }
   Size image_size() const;
   /// Where sample (x, y) of an image lies, in [0,1]^2; fractions between samples too.
   Vec2<double> point(double x, double y) const;
+  /// The direction of the source that sample (x, y) of an image shows, unit.
+  Vec3<double> direction(int image, int x, int y) const;
 };
 
 /// Unit direction through the point (u, v) in [0,1]^2 of an image, v down.
 Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv);
 
-/// Unit directions of the samples in row y of an image, or of a face.
+/// The directions of all samples in row y of an image, or of a face.
 void row_directions(const SphereGrid& grid, int image, int y,
                     std::vector<Vec3<double>>& directions);
 

@@ -25,9 +25,11 @@ std::vector<double> harmonics_at(int order, const Vec3<double>& d);
 
 /// L_lm = integral of L Y_lm over the sphere, summed over texel centres with exact solid angles.
 /// @param latlong  planes R G B (or one plane, grey), values at texel centres
-/// @param axes     of the harmonics; those of kiln unless stated
+/// @param axes        of the harmonics; those of kiln unless stated
+/// @param rotate_deg  of the environment, as of Environment [degree]
 /// @accuracy  1e-12 of L_00
-SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes = {});
+SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes = {},
+                              double rotate_deg = 0);
 
 /// The expansion of irradiance over pi, from that of radiance: each band times A_l / pi.
 /// @source Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance

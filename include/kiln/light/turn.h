@@ -18,6 +18,13 @@ class Turn {
     return {c * d.x - s * d.z, d.y, fma(s, d.x, c * d.z)};
   }
 
+  /// The world direction in which the direction d of the unturned image is seen.
+  template <class F>
+  Vec3<F> to_world(const Vec3<F>& d) const {
+    const F s = F(static_cast<ScalarOf<F>>(sine_)), c = F(static_cast<ScalarOf<F>>(cosine_));
+    return {fma(c, d.x, s * d.z), d.y, c * d.z - s * d.x};
+  }
+
  private:
   double sine_, cosine_;
 };

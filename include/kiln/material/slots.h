@@ -140,4 +140,9 @@ Layers pick_slot(const Layers& file, Slot slot, std::string_view channels);
 /// Whether `pick_channels` would find them.
 bool has_channels(const std::vector<std::string>& channel_names, std::string_view channels);
 
+/// The names, one for each letter, of the channels that it would take.
+/// @error as pick_channels
+std::vector<std::string> picked_names(const std::vector<std::string>& channel_names,
+                                      std::string_view channels);
+
 }  // namespace kiln

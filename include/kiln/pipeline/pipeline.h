@@ -10,6 +10,7 @@
 
 #include "kiln/bake/surface_choice.h"
 #include "kiln/color/color.h"
+#include "kiln/image/arrangement.h"
 #include "kiln/io/image_file.h"
 #include "kiln/material/workflow.h"
 #include "kiln/pipeline/document.h"
@@ -25,9 +26,12 @@ struct ColorChoice {
 
 struct EnvironmentChoice {
   std::string name;
-  std::filesystem::path path;
-  std::string color_space;  ///< empty: by type
-  double rotate = 0;        ///< [degree]
+  std::filesystem::path path;  ///< a file, six with <FACE> in the name, or a folder of six
+  std::string color_space;     ///< empty: by type
+  Arrangement projection = Arrangement::Auto;
+  Mirror mirror = Mirror::None;
+  Up up = Up::Y;
+  double rotate = 0;  ///< [degree]
   std::string fix = "neighbors";
   Place place = {};
 };
@@ -113,6 +117,10 @@ MaterialFile read_material_file(const std::filesystem::path& file);
 /// An entry of `bakes` from keys and values, as a command line gives them.
 /// @error Fault::Usage as for a file, without a place
 BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& keys);
+
+/// An entry of `environment`, likewise.
+EnvironmentChoice environment_choice(const std::string& name,
+                                     const std::vector<std::pair<std::string, std::string>>& keys);
 
 /// Which OpenColorIO config counts: the one asked for, else that of the file, else $OCIO, else the
 /// builtin one.

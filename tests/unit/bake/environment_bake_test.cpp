@@ -11,7 +11,7 @@ namespace {
 Baked bake_environment(const Layers& latlong, const test::Settings& settings) {
   const auto recipe = make_recipe("environment");
   for (const auto& [name, value] : settings) recipe->set(name, value);
-  const LightMade made = make_light(latlong, {});
+  const LightMade made = make_light(latlong_image(latlong), {});
   Ingredients ingredients;
   ingredients.light = made.light.get();
   return recipe->bake(ingredients);

@@ -68,6 +68,55 @@ TEST(EnvVerb, WritesTheChainAndItsDescription) {
   EXPECT_TRUE(nlohmann::json::accept(test::text_of(shop / "out/env.json")));
 }
 
+TEST(EnvVerb, TellsHowTheImageWasRead) {
+  const Workshop shop;
+  const auto cross = shop.paint("cross.exr", 1.0f, PixelType::Float, {32, 24});
+  const std::string out = (shop / "out").string();
+  std::vector<std::string> words = {"env", cross.string(), "-o", out, "--size", "16"};
+  const Outcome found = kiln(shop, words);
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(found.err,
+              HasSubstr("projection cube-cross: six faces px nx py ny pz nz of 8 x 8 (4:3)"));
+  EXPECT_THAT(found.err, HasSubstr("mirror none, up y, rotate 0"));
+  words.insert(words.end(), {"--mirror", "x", "--up", "z", "--projection", "cube-cross"});
+  const Outcome stated = kiln(shop, words);
+  EXPECT_EQ(stated.code, 0) << stated.err;
+  EXPECT_THAT(stated.err, HasSubstr("(4:3, as stated)"));
+  EXPECT_THAT(stated.err, HasSubstr("mirror x, up z, rotate 0"));
+}
+
+TEST(EnvVerb, ReadsSixFilesAndSaysWhichIsMissing) {
+  const Workshop shop;
+  for (const char* face : {"px", "nx", "py", "ny", "pz"}) {
+    shop.paint(std::string("sky_") + face + ".exr", 1.0f, PixelType::Float, {8, 8});
+  }
+  const std::string out = (shop / "out").string();
+  const std::vector<std::string> words = {
+      "env", (shop / "sky_<FACE>.exr").string(), "-o", out, "--size", "16"};
+  const Outcome missing = kiln(shop, words);
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("missing: nz"));
+  EXPECT_FALSE(std::filesystem::exists(shop / "out/env.json"));
+  shop.paint("sky_nz.exr", 1.0f, PixelType::Float, {8, 8});
+  EXPECT_EQ(kiln(shop, words).code, 0);
+}
+
+TEST(EnvVerb, RefusesASquareUnlessItIsSaidToBeOctahedral) {
+  const Workshop shop;
+  const auto square = shop.paint("square.exr", 1.0f, PixelType::Float, {16, 16});
+  std::vector<std::string> words = {"env", square.string(), "-o", (shop / "out").string(), "--size",
+                                    "16"};
+  const Outcome refused = kiln(shop, words);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("State the projection: octahedral"));
+  words.insert(words.end(), {"--projection", "octahedral"});
+  EXPECT_EQ(kiln(shop, words).code, 0);
+  words.back() = "sphere";
+  const Outcome unknown = kiln(shop, words);
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("projection"));
+}
+
 TEST(EnvVerb, OfAMissingImageIsAnInputError) {
   const Workshop shop;
   const Outcome outcome =
@@ -86,6 +135,17 @@ TEST(PreviewVerb, TellsWhichFileTookWhichSlotAndWhy) {
   EXPECT_THAT(outcome.err, HasSubstr("rock_Roughness.png"));
   EXPECT_THAT(outcome.err, HasSubstr("srgb_rec709_scene -> lin_rec709_scene"));
   EXPECT_EQ(inspect_image(shop / "a.png").size, (Size{4, 4}));
+}
+
+TEST(PreviewVerb, IsLitByAnyProjection) {
+  const Workshop shop;
+  const auto strip = shop.paint("strip.exr", 1.0f, PixelType::Float, {48, 8});
+  shop.paint_set("rock");
+  const Outcome outcome =
+      kiln(shop, {"preview", (shop / "rock").string(), "--env", strip.string(), "--projection",
+                  "cube-strip", "--samples", "4", "-o", (shop / "a.png").string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("(6:1, as stated)"));
 }
 
 TEST(PreviewVerb, ReadsAMaterialFile) {

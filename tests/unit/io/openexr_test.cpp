@@ -199,6 +199,15 @@ TEST_F(OpenExr, TakesLatLongEnvironmentsAsNodeAligned) {
   Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
   EXPECT_TRUE(read_image(write_y("latlong.exr", header)).facts.node_aligned);
   EXPECT_TRUE(inspect_image(folder / "latlong.exr").node_aligned);
+  EXPECT_EQ(inspect_image(folder / "latlong.exr").envmap, Envmap::LatLong);
+}
+
+TEST_F(OpenExr, SaysThatAFileIsACubeWithSamplesOnItsBorders) {
+  Imf::Header header(2, 12);
+  Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
+  const FileFacts facts = inspect_image(write_y("cube.exr", header));
+  EXPECT_EQ(facts.envmap, Envmap::Cube);
+  EXPECT_TRUE(facts.node_aligned);
 }
 
 TEST_F(OpenExr, PremultipliesOnlyWhenAsked) {

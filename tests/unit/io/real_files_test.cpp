@@ -114,6 +114,7 @@ TEST(RealFiles, ALatLongWithSamplesOnItsBorderIsNodeAligned) {
   KILN_REQUIRE_REAL_DATA(data);
   const ImageFile file = read_image(data / "data/env/OrientationLatLong.exr");
   EXPECT_TRUE(file.facts.node_aligned);
+  EXPECT_EQ(file.facts.envmap, Envmap::LatLong);
   EXPECT_EQ(file.image.size, (Size{1024, 512}));
   EXPECT_THAT(channel_names(file.image), ElementsAre("R", "G", "B", "A"));
   for (const char* name : {"R", "G", "B"}) {
@@ -121,7 +122,8 @@ TEST(RealFiles, ALatLongWithSamplesOnItsBorderIsNodeAligned) {
     for (int y = 0; y < 512; ++y) ASSERT_NEAR(plane.at(0, y), plane.at(1023, y), 2e-3);
   }
   const FileFacts cube = inspect_image(data / "data/env/OrientationCube.exr");
-  EXPECT_FALSE(cube.node_aligned);
+  EXPECT_TRUE(cube.node_aligned);
+  EXPECT_EQ(cube.envmap, Envmap::Cube);
   EXPECT_THAT(cube.notes, Contains(HasSubstr("cube environment")));
 }
 

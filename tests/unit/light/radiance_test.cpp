@@ -42,6 +42,26 @@ TEST(FixRadiance, WrapsAroundTheImageAndEndsAtThePoles) {
   EXPECT_FLOAT_EQ(image.layers[0].plane.at(0, 0), (7 + 1 + 17 + 10 + 11) / 5.0f);
 }
 
+TEST(FixRadiance, EndsAtTheEdgesOfAFace) {
+  Layers image = counting_image({8, 8});
+  image.layers[0].plane.at(0, 0) = infinite;
+  fix_radiance(image, Fix::Neighbors, Edges::End);
+  EXPECT_FLOAT_EQ(image.layers[0].plane.at(0, 0), (1 + 10 + 11) / 3.0f);
+}
+
+TEST(FixRadiance, SaysWhereTheFirstIsFound) {
+  Layers image = counting_image({70, 4});
+  image.layers[0].plane.at(66, 2) = nan;
+  image.layers[0].plane.at(5, 3) = nan;
+  const Fixed found = fix_radiance(image, Fix::None);
+  ASSERT_TRUE(found.first);
+  EXPECT_EQ(found.first->x, 66);
+  EXPECT_EQ(found.first->y, 2);
+  EXPECT_EQ(found.first->channel, "R");
+  EXPECT_FALSE(fix_radiance(image, Fix::Zero).first == std::nullopt);
+  EXPECT_FALSE(fix_radiance(image, Fix::Zero).first) << "nothing is left";
+}
+
 TEST(FixRadiance, GrowsItsRingUntilItFindsSomethingFinite) {
   Layers image = counting_image({16, 9});
   for (int y = 3; y <= 5; ++y) {

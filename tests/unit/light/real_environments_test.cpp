@@ -6,8 +6,12 @@
 #include <sstream>
 
 #include "brute_force.h"
+#include "kiln/image/arrangement.h"
+#include "kiln/image/compare.h"
+#include "kiln/image/resample.h"
 #include "kiln/io/image_file.h"
 #include "kiln/light/radiance.h"
+#include "kiln/light/source.h"
 #include "kiln/light/spherical_harmonics.h"
 #include "support/real_data.h"
 
@@ -99,6 +103,48 @@ TEST(RealEnvironments, WithNanAndInfAreMadeFinite) {
   EXPECT_GT(found.nan + found.inf, 0);
   const Oddities left = count_oddities(image);
   EXPECT_EQ(left.nan + left.inf, 0);
+}
+
+SphereImage read_sphere(const std::filesystem::path& path) {
+  ImageFile file = read_image(path, {}, {"R", "G", "B"});
+  const ImageMarks marks{file.facts.size, file.facts.envmap, file.facts.node_aligned};
+  const ArrangementChoice choice = choose_arrangement(Arrangement::Auto, marks);
+  return arranged(std::move(file.image), choice.arrangement, marks);
+}
+
+/// Seen from afar: the lines of two renderings differ by less than a texel.
+Layers from_afar(const Layers& latlong) { return resample(latlong, {64, 32}); }
+
+// Two renderings of one scene, with letters: a turned or mirrored face would differ everywhere.
+TEST(RealEnvironments, AreTheSameFromACubeAndFromALatLongImage) {
+  KILN_REQUIRE_REAL_DATA(folder);
+  for (const std::string name : {"Orientation", "WavyLines"}) {
+    const auto env = folder / "data" / "env";
+    SphereImage cube = read_sphere(env / (name + "Cube.exr"));
+    const SphereImage latlong = read_sphere(env / (name + "LatLong.exr"));
+    ASSERT_EQ(cube.projection, SphereImage::Projection::Cube);
+    ASSERT_TRUE(latlong.node_aligned);
+    const Layers expected = from_afar(texel_centred(latlong.images.front()));
+    const double same = compare(from_afar(picture_of(cube)), expected).rms;
+    mirror_x(cube);
+    const double mirrored = compare(from_afar(picture_of(cube)), expected).rms;
+    EXPECT_LT(same, 0.02) << name;
+    EXPECT_GT(mirrored, 3 * same) << name;
+    RecordProperty(name, std::to_string(same) + " " + std::to_string(mirrored));
+  }
+}
+
+TEST(RealEnvironments, HaveTheMomentsOfTheLatLongImageInTheCube) {
+  KILN_REQUIRE_REAL_DATA(folder);
+  const auto env = folder / "data" / "env";
+  const auto of_cube = project_sh(point_masses_of(read_sphere(env / "OrientationCube.exr")), 1);
+  const auto expected =
+      project_sh(texel_centred(read_sphere(env / "OrientationLatLong.exr").images.front()), 1);
+  for (size_t i = 0; i < expected.coefficients.size(); ++i) {
+    EXPECT_NEAR(of_cube.coefficients[i].y, expected.coefficients[i].y,
+                3e-3 * expected.coefficients[0].y)
+        << i;
+  }
 }
 
 }  // namespace
