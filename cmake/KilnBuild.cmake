@@ -23,11 +23,12 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(xsimd REQUIRED)
 set_property(TARGET xsimd PROPERTY INTERFACE_LINK_LIBRARIES "")  # Debian's names xtl, which only complex numbers need
-# The CMake packages of these three, as Debian ships them, are unusable or demand their tools too:
-# pkg-config knows them. Targets: PkgConfig::OpenEXR, PkgConfig::OpenImageIO, PkgConfig::OpenColorIO.
+# The CMake packages of these, as Debian ships them, are missing, unusable or demand their tools too:
+# pkg-config knows them. Targets: PkgConfig::OpenEXR, PkgConfig::OpenImageIO, ...
 pkg_check_modules(OpenEXR REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO)
+pkg_check_modules(Zstandard REQUIRED IMPORTED_TARGET libzstd)
 
 # Warnings, instruction set and floating-point contract of our own code.
 # No -ffast-math: NaN keeps meaning NaN, and fused operations are written as fma.

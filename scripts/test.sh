@@ -6,6 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/setup.sh
+scripts/readers.sh
 cmake --preset release --log-level=WARNING
 cmake --build --preset release
 ctest --preset release -j "$(nproc)" "$@"

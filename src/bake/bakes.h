@@ -30,24 +30,24 @@ struct LutBake {
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 
-/// An environment as an engine wants it: a prefiltered specular chain and irradiance.
+/// An environment as an engine wants it: a prefiltered specular chain, irradiance and harmonics.
 struct EnvironmentBake {
   static constexpr const char* name = "environment";
   static constexpr const char* summary = "prefiltered specular chain, irradiance and harmonics";
   static constexpr Scope scope = Scope::Once;
   static constexpr Product product = Product::Folder;
-  enum class Layout { Cube, Latlong };
-  enum class Curve { Filament, Linear };
-  enum class Format { Exr, Hdr };
   struct Settings {
+    std::string preset;
     int size = 256;
-    Layout layout = Layout::Cube;
-    Curve curve = Curve::Filament;
-    Format format = Format::Exr;
+    std::string layout, curve, format, encoding, supercompression;  ///< "": the preset's
+    std::string distribution;
+    double shape = 0;
+    std::string axes;
     int sh_order = 2;
+    std::string sh_window;
   };
   static Params<Settings> params();
-  static Needs needs(const Settings&) { return {.light = true}; }
+  static Needs needs(const Settings& settings);  ///< refuses settings that do not fit
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 

@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bakes.h"
-#include "kiln/image/projection.h"
-#include "kiln/light/chain_error.h"
-#include "kiln/light/spherical_harmonics.h"
+#include "encoding_loss.h"
+#include "environment_recipe.h"
+#include "kiln/light/dominant_light.h"
+#include "kiln/light/filter_error.h"
 #include "light_product.h"
 
 namespace kiln {
@@ -15,163 +16,272 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Settings = EnvironmentBake::Settings;
 
+constexpr int irradiance_size = 64;
+
 Json to_json(const Vec3<double>& v) { return Json::array({v.x, v.y, v.z}); }
 
-std::string extension_of(const Settings& settings) {
-  return settings.format == EnvironmentBake::Format::Exr ? ".exr" : ".hdr";
-}
+/// What is computed, in kiln's axes.
+struct Computed {
+  std::vector<std::vector<Layers>> specular;  ///< [levels][images]
+  std::vector<FilterError> specular_errors;   ///< [levels]; of the first, an average, 0
+  std::vector<Layers> irradiance;
+  FilterError irradiance_error;
+  Vec3<double> mean_radiance;
+};
 
-/// An image whose texels are a function of direction, in either layout.
-template <class Function>
-Layers fill_latlong(Size size, const Function& radiance) {
-  Layers image = make_layers(size, {"R", "G", "B"});
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const Vec2<double> uv{(x + 0.5) / size.width, (y + 0.5) / size.height};
-      const Vec3<double> d = latlong_to_direction(uv);
-      const Vec3<float> value = radiance(
-          Vec3<float>{static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
-      image.layers[0].plane.at(x, y) = value.x;
-      image.layers[1].plane.at(x, y) = value.y;
-      image.layers[2].plane.at(x, y) = value.z;
-    }
+std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
+  std::vector<Lobe> lobes{Lobe{}};  // the clamped cosine, for irradiance
+  for (const double roughness : recipe.plan.roughness) {
+    if (roughness > 0) lobes.push_back(recipe.lobe(square(roughness)));
   }
-  return image;
+  return lobes;
 }
 
-std::vector<Vec3<double>> face_normals(CubeFace face, int edge) {
-  std::vector<Vec3<double>> normals;
-  for (int y = 0; y < edge; ++y) {
-    for (int x = 0; x < edge; ++x) {
-      normals.push_back(normalize(cube_to_direction(face, {(x + 0.5) / edge, (y + 0.5) / edge})));
-    }
-  }
-  return normals;
-}
-
-Layers irradiance_face(const Layers& latlong, CubeFace face, int edge) {
-  const auto values = normalised_irradiance(latlong, face_normals(face, edge));
-  Layers image = make_layers({edge, edge}, {"R", "G", "B"});
-  for (int i = 0; i < edge * edge; ++i) {
-    image.layers[0].plane.at(i % edge, i / edge) = static_cast<float>(values[i].x);
-    image.layers[1].plane.at(i % edge, i / edge) = static_cast<float>(values[i].y);
-    image.layers[2].plane.at(i % edge, i / edge) = static_cast<float>(values[i].z);
-  }
-  return image;
-}
-
-void add_cube(Baked& baked, const std::string& stem, const std::string& extension,
-              const std::function<Layers(CubeFace)>& face) {
-  for (int f = 0; f < 6; ++f) {
-    baked.artifacts.push_back(
-        {fmt::format("{}_{}", stem, cube_face_names[f]),
-         extension,
-         face(static_cast<CubeFace>(f)),
-         "",
-         {{"kiln:bake", "environment"}, {"kiln:face", std::string(cube_face_names[f])}}});
-  }
-}
-
-void add_specular(Baked& baked, const Settings& settings, const SpecularChain& chain) {
-  const std::string extension = extension_of(settings);
-  for (int level = 0; level < chain.levels(); ++level) {
-    const std::string stem = fmt::format("specular_m{}", level);
-    if (settings.layout == EnvironmentBake::Layout::Cube) {
-      add_cube(baked, stem, extension, [&](CubeFace face) { return chain.face(level, face); });
+Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
+  Computed computed;
+  computed.mean_radiance = mean_radiance(light.latlong);
+  const Prefilter prefilter(light.latlong, lobes_of(recipe));
+  std::vector<FilteredLevel> filtered;
+  for (size_t level = 0; level < recipe.plan.sizes.size(); ++level) {
+    const SphereGrid grid = recipe.grid(recipe.plan.sizes[level]);
+    const double roughness = recipe.plan.roughness[level];
+    if (roughness == 0) {
+      computed.specular.push_back(average_over_texels(light.latlong, grid));
       continue;
     }
-    const int height = chain.size(level);
-    baked.artifacts.push_back(
-        {stem,
-         extension,
-         fill_latlong({2 * height, height},
-                      [&](const Vec3<float>& d) { return chain.lookup_level(d, level); }),
-         "",
-         {{"kiln:bake", "environment"}}});
+    const Lobe lobe = recipe.lobe(square(roughness));
+    filtered.push_back({lobe, grid, prefilter.filter(lobe, grid)});
+    computed.specular.push_back(filtered.back().images);
   }
+  const SphereGrid grid = recipe.grid(irradiance_size);
+  filtered.push_back({Lobe{}, grid, prefilter.filter(Lobe{}, grid)});
+  computed.irradiance = filtered.back().images;
+  std::vector<FilterError> errors =
+      filter_errors(prefilter, filtered, luminance(computed.mean_radiance));
+  computed.irradiance_error = errors.back();
+  errors.pop_back();
+  for (const double roughness : recipe.plan.roughness) {
+    if (roughness == 0) {
+      computed.specular_errors.emplace_back();
+    } else {
+      computed.specular_errors.push_back(errors.front());
+      errors.erase(errors.begin());
+    }
+  }
+  return computed;
 }
 
-void add_irradiance(Baked& baked, const Settings& settings, const Light& light) {
-  const std::string extension = extension_of(settings);
-  if (settings.layout == EnvironmentBake::Layout::Cube) {
-    add_cube(baked, "irradiance", extension,
-             [&](CubeFace face) { return irradiance_face(light.latlong, face, 64); });
-    return;
-  }
-  baked.artifacts.push_back(
-      {"irradiance",
-       extension,
-       IrradianceMap(light.latlong).image(),
-       "",
-       {{"kiln:bake", "environment"}, {"kiln:quantity", "irradiance over pi"}}});
+void turn_to_engine(const Axes& axes, Computed& computed) {
+  if (axes.is_identity()) return;
+  for (auto& level : computed.specular) level = faces_in(axes, level);
+  computed.irradiance = faces_in(axes, computed.irradiance);
 }
+
+/// The nine numbers that shaders sum, of irradiance over pi.
+std::array<Vec3<double>, 9> shader_harmonics(const EnvironmentRecipe& recipe, const Light& light) {
+  return scaled_for_shaders(
+      irradiance_over_pi(windowed(project_sh(light.latlong, 2, recipe.axes), recipe.sh_window)));
+}
+
+/// One file, or one per image and level, of the recipe's format.
+class Files {
+ public:
+  Files(const EnvironmentRecipe& recipe, const Light& light) : recipe_(recipe) {
+    const auto harmonics = shader_harmonics(recipe, light);
+    irradiance_.assign(harmonics.begin(), harmonics.end());
+  }
+
+  /// Levels, as one texture or as files "STEM_mN".
+  void add_chain(Baked& baked, const std::string& stem, std::vector<std::vector<Layers>> levels,
+                 const std::string& quantity) const {
+    if (recipe_.format.whole) return add_texture(baked, stem, std::move(levels), quantity);
+    for (size_t level = 0; level < levels.size(); ++level) {
+      add_images(baked, fmt::format("{}_m{}", stem, level), std::move(levels[level]), quantity);
+    }
+  }
+
+  /// A level alone.
+  void add_level(Baked& baked, const std::string& stem, std::vector<Layers> images,
+                 const std::string& quantity) const {
+    if (recipe_.format.whole) return add_texture(baked, stem, {std::move(images)}, quantity);
+    add_images(baked, stem, std::move(images), quantity);
+  }
+
+ private:
+  Artifact make(const std::string& name, const std::string& quantity) const {
+    Artifact artifact;
+    artifact.name = name;
+    artifact.extension = recipe_.format.extension;
+    artifact.preferred_type = recipe_.encoding;
+    artifact.attributes = {{"kiln:bake", "environment"}, {"kiln:quantity", quantity}};
+    if (recipe_.format.name == "ktx1") artifact.attributes = {{"sh", harmonics_text()}};
+    return artifact;
+  }
+
+  void add_texture(Baked& baked, const std::string& stem, std::vector<std::vector<Layers>> levels,
+                   const std::string& quantity) const {
+    Artifact artifact = make(stem, quantity);
+    artifact.texture =
+        TextureProduct{{std::move(levels)}, recipe_.zstd, recipe_.format.at_nodes, irradiance_};
+    baked.artifacts.push_back(std::move(artifact));
+  }
+
+  void add_images(Baked& baked, const std::string& stem, std::vector<Layers> images,
+                  const std::string& quantity) const {
+    for (size_t i = 0; i < images.size(); ++i) {
+      const bool cube = images.size() == 6;
+      Artifact artifact =
+          make(cube ? fmt::format("{}_{}", stem, cube_face_names[i]) : stem, quantity);
+      if (cube) artifact.attributes.emplace_back("kiln:face", std::string(cube_face_names[i]));
+      artifact.image = std::move(images[i]);
+      baked.artifacts.push_back(std::move(artifact));
+    }
+  }
+
+  // As Filament reads it: a line for each coefficient.
+  std::string harmonics_text() const {
+    std::string text;
+    for (const Vec3<double>& c : irradiance_)
+      text += fmt::format("{:.9g} {:.9g} {:.9g}\n", c.x, c.y, c.z);
+    return text;
+  }
+
+  const EnvironmentRecipe& recipe_;
+  std::vector<Vec3<double>> irradiance_;
+};
 
 void add_text(Baked& baked, const std::string& name, const Json& json) {
-  baked.artifacts.push_back({name, ".json", {}, json.dump(2) + "\n", {}});
+  Artifact artifact;
+  artifact.name = name;
+  artifact.extension = ".json";
+  artifact.text = json.dump(2) + "\n";
+  baked.artifacts.push_back(std::move(artifact));
 }
 
-Json describe_harmonics(const SphericalHarmonics& radiance) {
-  Json json = {{"order", radiance.order},
-               {"basis",
-                "real, no Condon-Shortley sign, L1-1 ~ y, L10 ~ z, L11 ~ x; (l, m) at "
-                "l * l + l + m"}};
-  const SphericalHarmonics irradiance = irradiance_over_pi(radiance);
-  for (const auto& c : radiance.coefficients) json["radiance"].push_back(to_json(c));
-  for (const auto& c : irradiance.coefficients) json["irradiance_over_pi"].push_back(to_json(c));
-  return json;
+template <class Coefficients>
+Json list_of(const Coefficients& coefficients) {
+  Json list = Json::array();
+  for (const Vec3<double>& c : coefficients) list.push_back(to_json(c));
+  return list;
 }
 
-Json describe_chain(const Settings& settings, const Light& light, const SpecularChain& chain,
-                    const std::vector<double>& errors) {
-  const bool cube = settings.layout == EnvironmentBake::Layout::Cube;
-  Json json = {{"curve", roughness_curve_names[static_cast<size_t>(settings.curve)]},
-               {"roughness", Json::array()},
-               {"layout", cube ? "cube" : "latlong"},
-               {"faces", Json::array()}};
-  for (int level = 0; level < chain.levels(); ++level) {
-    json["roughness"].push_back(chain.roughness(level));
+Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light) {
+  const SphericalHarmonics radiance =
+      windowed(project_sh(light.latlong, recipe.sh_order, recipe.axes), recipe.sh_window);
+  return {{"order", radiance.order},
+          {"basis",
+           "real, no Condon-Shortley sign, L1-1 ~ y, L10 ~ z, L11 ~ x; (l, m) at l * l + l + m"},
+          {"axes", recipe.axes_text},
+          {"window", sh_window_names[static_cast<size_t>(recipe.sh_window)]},
+          {"radiance", list_of(radiance.coefficients)},
+          {"irradiance_over_pi", list_of(irradiance_over_pi(radiance).coefficients)},
+          {"shader",
+           {{"meaning",
+             "irradiance over pi = c0 + c1 y + c2 z + c3 x + c4 x y + c5 y z + c6 (3 z^2 - 1) + "
+             "c7 x z + c8 (x^2 - y^2) of the normal (x, y, z)"},
+            {"c", list_of(shader_harmonics(recipe, light))}}}};
+}
+
+Json describe_dominant(const EnvironmentRecipe& recipe, const Light& light) {
+  const auto dominant = dominant_light(light.latlong);
+  if (!dominant) return nullptr;
+  return {{"direction", to_json(recipe.axes.to_engine(dominant->direction))},
+          {"solid_angle_sr", dominant->solid_angle},
+          {"radiance", to_json(dominant->radiance)},
+          {"irradiance", to_json(dominant->irradiance)}};
+}
+
+Json describe_errors(const Computed& computed) {
+  Json levels = Json::array(), greatest = Json::array();
+  for (const FilterError& error : computed.specular_errors) {
+    levels.push_back(error.rms);
+    greatest.push_back(error.max);
   }
-  if (cube) {
-    for (auto name : cube_face_names) json["faces"].push_back(std::string(name));
+  return {{"meaning",
+           "at texel centres against brute force over all texels of the source, around the "
+           "brightest too, relative to the mean radiance, before encoding"},
+          {"levels", levels},
+          {"levels_max", greatest},
+          {"irradiance", computed.irradiance_error.rms},
+          {"irradiance_max", computed.irradiance_error.max}};
+}
+
+Json describe(const EnvironmentRecipe& recipe, const Light& light, const Computed& computed,
+              const EncodingLoss& loss) {
+  Json json = {{"curve", recipe.curve},
+               {"roughness", recipe.plan.roughness},
+               {"distribution", recipe.distribution},
+               {"layout", sphere_layout_names[static_cast<size_t>(recipe.layout)]},
+               {"faces", Json::array()},
+               {"axes", recipe.axes_text},
+               {"format", recipe.format.name},
+               {"encoding", recipe.encoding}};
+  if (recipe.layout == SphereLayout::Cube) {
+    for (const auto name : cube_face_names) json["faces"].push_back(std::string(name));
   }
-  json["mean_radiance"] = to_json(mean_radiance(light.latlong));
+  if (!recipe.preset.name.empty()) json["preset"] = recipe.preset.name;
+  json["mean_radiance"] = to_json(computed.mean_radiance);
+  json["dominant_light"] = describe_dominant(recipe, light);
   json["fixed"] = {{"nan", light.fixed.nan},
                    {"inf", light.fixed.inf},
                    {"negative", light.fixed.negative},
-                   {"clamped", 0},
-                   {"lost_energy", 0}};
-  json["error"] = {{"meaning",
-                    "rms at texel centres against brute force, relative to the level's "
-                    "mean radiance, before encoding"},
-                   {"levels", errors}};
+                   {"clamped", loss.clamped},
+                   {"lost_energy", loss.lost_energy}};
+  json["error"] = describe_errors(computed);
+  json["error"]["encoding"] = {{"meaning", "over all texels, relative to the mean radiance"},
+                               {"rms", loss.rms},
+                               {"max", loss.max}};
   json["version"] = 1;
   return json;
 }
 
+void add_figures(const EnvironmentRecipe& recipe, const Computed& computed,
+                 const EncodingLoss& loss, Baked& baked) {
+  for (size_t level = 0; level < computed.specular_errors.size(); ++level) {
+    const double roughness = recipe.plan.roughness[level];
+    if (roughness == 0) continue;
+    const FilterError& error = computed.specular_errors[level];
+    const std::string name = fmt::format("level {}, roughness {:.3f}", level, roughness);
+    baked.figures.emplace_back(name + ": rms error", error.rms);
+    baked.figures.emplace_back(name + ": greatest error", error.max);
+  }
+  baked.figures.emplace_back(fmt::format("encoding {}: rms error", recipe.encoding), loss.rms);
+  if (loss.clamped == 0) return;
+  baked.notes.push_back(
+      fmt::format("{} values beyond the range of {} are clamped, {:.3g} of the energy is lost",
+                  loss.clamped, recipe.encoding, loss.lost_energy));
+}
+
 }  // namespace
 
-Params<Settings> EnvironmentBake::params() {
-  return {
-      integer_param("size", &Settings::size, {16, 4096}, "edge of a cube face of the first level"),
-      word_param("layout", &Settings::layout, {"cube", "latlong"}, "six faces, or 2N x N"),
-      word_param("curve", &Settings::curve, {"filament", "linear"}, "roughness along the levels"),
-      word_param("format", &Settings::format, {"exr", "hdr"}, "of the images"),
-      integer_param("sh_order", &Settings::sh_order, {0, 32}, "of the spherical harmonics"),
-  };
+Needs EnvironmentBake::needs(const Settings& settings) {
+  resolve_environment(settings);
+  return {.light = true};
 }
 
 Baked EnvironmentBake::bake(const Settings& settings, const Ingredients& ingredients) {
+  const EnvironmentRecipe recipe = resolve_environment(settings);
   const Light& light = *ingredients.light;
-  const auto curve = static_cast<RoughnessCurve>(settings.curve);
-  const SpecularChain chain(light.latlong, {settings.size, curve, 0});
-  const std::vector<double> errors = chain_errors(light.latlong, chain);
+  Computed computed = compute(recipe, light);
+  EncodingLoss loss;
+  if (ingredients.coded) {
+    loss = measure_encoding(computed.specular, recipe.grid(settings.size), recipe.encoding,
+                            luminance(computed.mean_radiance), ingredients.coded);
+  }
+  turn_to_engine(recipe.axes, computed);
   Baked baked;
-  add_specular(baked, settings, chain);
-  add_irradiance(baked, settings, light);
-  add_text(baked, "sh", describe_harmonics(project_sh(light.latlong, settings.sh_order)));
-  add_text(baked, "env", describe_chain(settings, light, chain, errors));
-  for (int level = 1; level < chain.levels(); ++level) {
-    baked.figures.emplace_back(fmt::format("rms error of level {}", level), errors[level]);
+  baked.notes = recipe.preset.cautions;
+  add_figures(recipe, computed, loss, baked);
+  add_text(baked, "sh", describe_harmonics(recipe, light));
+  add_text(baked, "env", describe(recipe, light, computed, loss));
+  const Files files(recipe, light);
+  if (!recipe.preset.skybox.empty()) {
+    files.add_level(baked, recipe.preset.skybox, computed.specular.front(), "radiance");
+  }
+  files.add_chain(baked, recipe.preset.specular, std::move(computed.specular), "radiance");
+  if (recipe.format.name != "env") {  // which holds irradiance beside the chain
+    files.add_level(baked, recipe.preset.irradiance, std::move(computed.irradiance),
+                    "irradiance over pi");
   }
   return baked;
 }

@@ -19,17 +19,6 @@ namespace {
 
 using Settings = LutBake::Settings;
 
-// A word out of a list of names, kept as text; empty until it is given.
-Param<Settings> named_param(std::string name, std::string Settings::*member,
-                            std::vector<std::string> choices, std::string meaning) {
-  ParamFacts facts{
-      std::move(name),   ParamFacts::Kind::Word, Settings{}.*member, 0, 0, std::move(choices), "",
-      std::move(meaning)};
-  return {facts, [facts, member](Settings& settings, const std::string& text) {
-            settings.*member = facts.choices[parse_word(facts, text)];
-          }};
-}
-
 struct FresnelNumber {
   const char* name;
   double FresnelChannel<double>::*member;
@@ -234,21 +223,21 @@ Artifact make_artifact(const Settings& settings, const std::shared_ptr<LutSource
 
 Params<Settings> LutBake::params() {
   Params<Settings> params = {
-      named_param("table", &Settings::table, table_names(), "what is integrated"),
-      named_param("preset", &Settings::preset, lut_preset_names(), "layout of an engine"),
+      choice_param("table", &Settings::table, table_names(), "what is integrated"),
+      choice_param("preset", &Settings::preset, lut_preset_names(), "layout of an engine"),
       size_param(),
       integer_param("depth", &Settings::depth, {0, 1024}, "slices of a 3-D table; 0: its own"),
       text_param("axes", &Settings::axes, "mappings of x, y, z (kiln list axes)"),
-      named_param("align", &Settings::align, {"center", "corner"}, "where entries lie"),
-      named_param("origin", &Settings::origin, {"top", "bottom"}, "row of the least y"),
+      choice_param("align", &Settings::align, {"center", "corner"}, "where entries lie"),
+      choice_param("origin", &Settings::origin, {"top", "bottom"}, "row of the least y"),
       text_param("channels", &Settings::channels, "what each holds (kiln list channels)"),
-      named_param("distribution", &Settings::distribution, model_names("distribution"),
-                  "microfacet normals"),
-      named_param("masking", &Settings::masking, model_names("masking"), "masking and shadowing"),
+      choice_param("distribution", &Settings::distribution, model_names("distribution"),
+                   "microfacet normals"),
+      choice_param("masking", &Settings::masking, model_names("masking"), "masking and shadowing"),
       number_param("shape", &Settings::shape, {0, 1000}, "",
                    "of distributions that have one; 0: its default"),
-      named_param("fresnel", &Settings::fresnel, model_names("fresnel"),
-                  "Fresnel term of reflectances, instead of F = 1"),
+      choice_param("fresnel", &Settings::fresnel, model_names("fresnel"),
+                   "Fresnel term of reflectances, instead of F = 1"),
       flag_param("exact", &Settings::exact, "entries to 1e-10 instead of 1e-6"),
   };
   for (const FresnelNumber& number : fresnel_numbers) params.push_back(fresnel_param(number));

@@ -48,7 +48,7 @@ LightMade make_light(Layers latlong, const LightSettings& settings) {
   auto light = std::make_shared<Light>(
       Light{std::move(latlong), settings.rotate_deg, fixed, std::move(environment), {}, {}});
   if (settings.prefiltered) {
-    const ChainOptions options{settings.size, RoughnessCurve::Filament, settings.rotate_deg};
+    const ChainOptions options{settings.size, settings.rotate_deg};
     light->chain.emplace(light->latlong, options);
     light->irradiance.emplace(light->latlong, settings.rotate_deg);
   }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kiln/bake/bake.h"
+#include "kiln/bake/environment.h"
 #include "kiln/bake/lut.h"
 #include "kiln/brdf/models.h"
 #include "kiln/color/color.h"
@@ -230,6 +231,12 @@ const std::vector<Kind>& kinds() {
        [](const Globals&) { return items_of(list_lut_channels()); }},
       {"presets", "layouts of engines for kiln lut",
        [](const Globals&) { return items_of(list_lut_presets()); }},
+      {"curves", "roughness along the levels of kiln env",
+       [](const Globals&) { return items_of(list_roughness_curves()); }},
+      {"engines", "layouts of engines for kiln env",
+       [](const Globals&) { return items_of(list_environment_presets()); }},
+      {"environment-formats", "files that kiln env writes",
+       [](const Globals&) { return items_of(list_environment_formats()); }},
       {"surface", "models and numbers of a material", list_surface, [](Item&) {}},
       {"bakes", "what a pipeline file can make", list_bakes},
       {"namings", "schemes that tell a map's slot from its file name", list_namings},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "byte_cursor.h"
 #include "format_numbers.h"
@@ -27,7 +28,7 @@ struct Header {
   uint32_t caps2 = 0;
 };
 
-constexpr uint32_t cube_caps = 0x200, volume_caps = 0x200000;
+constexpr uint32_t cube_caps = 0x200, faces_caps = 0xfc00, volume_caps = 0x200000;
 constexpr uint32_t alpha_flag = 0x1, four_cc_flag = 0x4, rgb_flag = 0x40, luminance_flag = 0x20000;
 
 Header header_of(ByteCursor& cursor) {
@@ -126,15 +127,15 @@ void check_masks(const PixelFormat& pixels) {
 }
 
 // The header of DirectX 10 behind the other one.
-std::optional<TexelFormat> dx10_format(ByteCursor& cursor, std::vector<std::string>& notes) {
+std::optional<TexelFormat> dx10_format(ByteCursor& cursor, StoredTexels& stored) {
   const uint32_t number = cursor.u32();
   cursor.skip(4);
   const uint32_t flags = cursor.u32();
   const uint32_t images = cursor.u32();
   cursor.skip(4);
   constexpr uint32_t cube_flag = 4;
-  if ((flags & cube_flag) != 0) notes.emplace_back("a cube; its first face is read");
-  if (images > 1) notes.push_back(fmt::format("an array of {}; the first is read", images));
+  if ((flags & cube_flag) != 0) stored.faces = 6;
+  stored.layers = std::max(1u, images);
   return dxgi_texel(number);
 }
 
@@ -149,7 +150,7 @@ std::optional<StoredTexels> dds_texels(ByteView bytes) {
     texel = masked_format(header.pixels);
     if (!texel) check_masks(header.pixels);
   } else if (header.pixels.four_cc == "DX10") {
-    texel = dx10_format(cursor, stored.notes);
+    texel = dx10_format(cursor, stored);
   } else {
     texel = numbered_format(header.pixels.four_cc);
   }
@@ -159,15 +160,25 @@ std::optional<StoredTexels> dds_texels(ByteView bytes) {
   stored.width = header.width;
   stored.height = header.height;
   if ((header.caps2 & volume_caps) != 0) stored.depth = std::max(1u, header.depth);
-  if ((header.caps2 & cube_caps) != 0 && stored.notes.empty()) {
-    stored.notes.emplace_back("a cube; its first face is read");
+  if ((header.caps2 & cube_caps) != 0 && stored.faces == 1) {
+    stored.faces = std::max(2, std::popcount(header.caps2 & faces_caps));
   }
-  if (header.mips > 1) {
-    stored.notes.push_back(fmt::format("{} mip levels; the largest is read", header.mips));
-  }
+  stored.levels = std::max(1u, header.mips);
   stored.row_pitch = static_cast<size_t>(header.width) * texel_bytes(stored.texel);
   stored.first = cursor.at();
   return stored;
+}
+
+std::vector<StoredLevel> dds_levels(const StoredTexels& stored) {
+  std::vector<StoredLevel> levels = empty_levels(stored);
+  size_t chain = 0;
+  for (StoredLevel& level : levels) {
+    level.row_pitch = static_cast<size_t>(level.width) * texel_bytes(stored.texel);
+    level.first = stored.first + chain;
+    chain += level.row_pitch * static_cast<size_t>(level.height);
+  }
+  for (StoredLevel& level : levels) level.face_step = chain;
+  return levels;
 }
 
 }  // namespace kiln::io

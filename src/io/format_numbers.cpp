@@ -54,6 +54,10 @@ Coding coding_of(PixelType type) {
       return Float;
     case PixelType::Rgb10a2:
       return Rgb10a2;
+    case PixelType::B10g11r11:
+      return R11g11b10f;
+    case PixelType::E5b9g9r9:
+      return Rgb9e5;
   }
   return Float;
 }

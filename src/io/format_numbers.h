@@ -9,7 +9,7 @@
 
 namespace kiln::io {
 
-/// DXGI_FORMAT of this type. @valid 1, 2 or 4 channels, 3 in Float
+/// DXGI_FORMAT of this type. @valid 1, 2 or 4 channels, 3 in Float; as many as a packed type has
 uint32_t dxgi_number(PixelType type, int channels);
 
 /// Nothing where the format is block-compressed or unknown here.

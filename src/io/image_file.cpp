@@ -8,10 +8,10 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include "band_encoder.h"
+#include "env_file.h"
 #include "file_bytes.h"
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
@@ -34,14 +34,6 @@ namespace fs = std::filesystem;
 
 std::string format_of(const fs::path& path) {
   return io::format_by_contents(path, io::first_bytes(path, io::signature_length));
-}
-
-// Where the texels of a texture container lie; nothing where OpenImageIO is to read the file.
-std::optional<io::StoredTexels> texels_of(const std::string& format, io::ByteView bytes) {
-  if (format == "dds") return io::dds_texels(bytes);
-  if (format == "ktx") return io::ktx1_texels(bytes);
-  if (format == "ktx2") return io::ktx2_texels(bytes);
-  return std::nullopt;
 }
 
 void check_type(const fs::path& path, const WritableFormat& format, PixelType type) {
@@ -86,30 +78,6 @@ void check_band(const fs::path& path, const Layers& band, Size size,
   if (band.size != size || names_of(band) != names) refuse_image(path, band.size, names.size());
 }
 
-// R G B A (or Y A) in that order where all names are of these, else as the layers stand.
-io::StoredPlanes in_file_order(const Layers& image, const Labels& labels) {
-  std::vector<size_t> order(image.layers.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  const auto rank = [&](size_t at) { return io::channel_rank(image.layers[at].name); };
-  const bool all_known = std::all_of(order.begin(), order.end(),
-                                     [&](size_t at) { return rank(at) <= io::channel_rank("A"); });
-  if (all_known) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return rank(a) < rank(b); });
-  }
-  const bool labelled = labels.channels.size() == order.size();
-  io::StoredPlanes stored;
-  stored.planes.reserve(order.size());
-  stored.names.reserve(order.size());
-  for (const size_t at : order) {
-    const Layer& layer = image.layers[at];
-    if (layer.name == "A") stored.alpha_channel = static_cast<int>(stored.planes.size());
-    stored.planes.push_back(&layer.plane);
-    stored.names.push_back(labelled ? labels.channels[at] : layer.name);
-  }
-  return stored;
-}
-
 [[noreturn]] void refuse_channels(const fs::path& path, const WritableFormat& format,
                                   const Layers& image) {
   std::vector<std::string_view> found;
@@ -126,7 +94,7 @@ bool holds_tables(const WritableFormat& format) {
 // The number of channels is all that limits textures, and files of tables hold any.
 io::StoredPlanes planes_of_table(const fs::path& path, const WritableFormat& format,
                                  const Layers& image, const WriteOptions& options) {
-  io::StoredPlanes stored = in_file_order(image, options.labels);
+  io::StoredPlanes stored = io::in_file_order(image, options.labels.channels);
   const bool texture = format.name == "dds" || format.name == "ktx2";
   if (texture && stored.planes.size() > 4) refuse_channels(path, format, image);
   return stored;
@@ -134,7 +102,7 @@ io::StoredPlanes planes_of_table(const fs::path& path, const WritableFormat& for
 
 io::StoredPlanes planes_of_picture(const fs::path& path, const WritableFormat& format,
                                    const Layers& image, const WriteOptions& options) {
-  io::StoredPlanes stored = in_file_order(image, options.labels);
+  io::StoredPlanes stored = io::in_file_order(image, options.labels.channels);
   if (format.name == "tiff") return stored;
   const bool holds_alpha = format.name == "png";
   const size_t most = holds_alpha ? 4 : 3;
@@ -151,16 +119,9 @@ io::StoredPlanes planes_of_picture(const fs::path& path, const WritableFormat& f
   return stored;
 }
 
-void check_rgbd(const fs::path& path, const io::StoredPlanes& stored, PixelType type) {
-  if (type != PixelType::Rgbd8 || (stored.planes.size() <= 3 && stored.alpha_channel < 0)) return;
-  throw Error(Fault::Usage, fmt::format("{}: found {} channels; rgbd8 holds 1 to 3, its alpha is a "
-                                        "divisor of theirs",
-                                        path.string(), stored.planes.size()));
-}
-
 io::StoredPlanes planes_of_format(const fs::path& path, const WritableFormat& format,
                                   const Layers& image, const WriteOptions& options) {
-  if (format.name == "openexr") return in_file_order(image, {});
+  if (format.name == "openexr") return io::in_file_order(image);
   return holds_tables(format) ? planes_of_table(path, format, image, options)
                               : planes_of_picture(path, format, image, options);
 }
@@ -208,7 +169,7 @@ WriteFacts write_fed(const fs::path& path, Size size, const std::vector<std::str
   };
   const Layers blank = make_layers({}, names);
   const io::StoredPlanes layout = planes(blank);
-  check_rgbd(path, layout, options.type);
+  with_context(path.string(), [&] { io::require_room(layout, options.type); });
   WriteFacts facts;
   publish_stream(path, [&](ByteStream& out) {
     const std::string context = path.string();
@@ -240,6 +201,10 @@ std::string_view pixel_type_name(PixelType type) {
       return "rgb10a2";
     case PixelType::Rgbd8:
       return "rgbd8";
+    case PixelType::B10g11r11:
+      return "b10g11r11";
+    case PixelType::E5b9g9r9:
+      return "e5b9g9r9";
   }
   return "float";
 }
@@ -252,7 +217,8 @@ FileFacts inspect_image(const fs::path& path) {
     const io::Bytes bytes = io::all_bytes(path);
     if (format == "hdr") return io::inspect_hdr(bytes, limits);
     if (format == "npy") return io::inspect_npy(bytes, limits);
-    if (const auto texels = texels_of(format, bytes)) {
+    if (format == "env") return io::inspect_env(bytes, limits);
+    if (const auto texels = io::stored_texels(format, bytes)) {
       return io::facts_of_texels(*texels, bytes, limits);
     }
     return io::inspect_by_openimageio(format, bytes, limits);
@@ -270,7 +236,8 @@ io::Volume io::read_volume(const fs::path& path, const std::string& format,
   const Bytes bytes = all_bytes(path);
   if (format == "hdr") return {read_hdr(bytes, limits)};
   if (format == "npy") return read_npy_image(bytes, limits);
-  if (const auto texels = texels_of(format, bytes)) return read_texels(*texels, bytes, limits);
+  if (format == "env") return {read_env(bytes, limits)};
+  if (const auto texels = stored_texels(format, bytes)) return read_texels(*texels, bytes, limits);
   return {read_by_openimageio(format, bytes, limits)};
 }
 

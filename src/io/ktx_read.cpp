@@ -6,6 +6,7 @@
 
 #include "byte_cursor.h"
 #include "format_numbers.h"
+#include "gl_numbers.h"
 #include "texture_files.h"
 
 namespace kiln::io {
@@ -37,13 +38,9 @@ void apply(const Extent& extent, StoredTexels& stored) {
   stored.width = extent.width;
   stored.height = std::max(1u, extent.height);
   stored.depth = std::max(1u, extent.depth);
-  if (extent.faces > 1) stored.notes.emplace_back("a cube; its first face is read");
-  if (extent.layers > 1) {
-    stored.notes.push_back(fmt::format("an array of {}; the first is read", extent.layers));
-  }
-  if (extent.levels > 1) {
-    stored.notes.push_back(fmt::format("{} mip levels; the largest is read", extent.levels));
-  }
+  stored.layers = std::max(1u, extent.layers);
+  stored.faces = std::max(1u, extent.faces);
+  stored.levels = std::max(1u, extent.levels);
 }
 
 // "KTXorientation" is "rd" in version 2 and "S=r,T=d" in version 1; u: the first row is the lowest.
@@ -88,50 +85,10 @@ void read_keys(ByteCursor cursor, size_t length, StoredTexels& stored) {
   }
 }
 
-// What glType and glFormat of uncompressed texels stand for. The internal format says only what
-// the graphics library is to make of them.
-TexelFormat gl_texel(uint32_t type, uint32_t format) {
-  using enum Coding;
-  struct Named {
-    uint32_t number;
-    Coding coding;
-  };
-  constexpr Named types[] = {{0x1401, Unorm8}, {0x1403, Unorm16}, {0x140b, Half},
-                             {0x1406, Float},  {0x8368, Rgb10a2}, {0x8c3b, R11g11b10f},
-                             {0x8c3e, Rgb9e5}};
-  struct Ordered {
-    uint32_t number;
-    std::string_view channels;
-  };
-  constexpr Ordered formats[] = {{0x1903, "Y"},   {0x1909, "Y"},    {0x190a, "YA"},
-                                 {0x1906, "A"},   {0x8227, "RG"},   {0x1907, "RGB"},
-                                 {0x80e0, "BGR"}, {0x1908, "RGBA"}, {0x80e1, "BGRA"}};
-  const auto coding = std::find_if(std::begin(types), std::end(types),
-                                   [&](const Named& one) { return one.number == type; });
-  const auto order = std::find_if(std::begin(formats), std::end(formats),
-                                  [&](const Ordered& one) { return one.number == format; });
-  if (coding == std::end(types) || order == std::end(formats)) {
-    refuse(
-        fmt::format("texels of OpenGL type 0x{:x} and format 0x{:x} are not read, expected 8 or "
-                    "16 bit, half, float or packed ones",
-                    type, format));
-  }
-  const TexelFormat texel{coding->coding, order->channels};
-  const size_t wanted = texel.coding == Rgb10a2 ? 4 : 3;
-  const bool packed =
-      texel.coding == Rgb10a2 || texel.coding == R11g11b10f || texel.coding == Rgb9e5;
-  if (packed && texel.channels.size() != wanted) {
-    refuse(fmt::format("texels of OpenGL type 0x{:x} have no format 0x{:x}", type, format));
-  }
-  return texel;
-}
-
 std::string_view scheme_name(uint32_t scheme) {
   switch (scheme) {
     case 1:
       return "BasisLZ";
-    case 2:
-      return "Zstandard";
     case 3:
       return "ZLIB";
     default:
@@ -181,8 +138,10 @@ StoredTexels ktx2_texels(ByteView bytes) {
   cursor.skip(4);
   const Extent extent = extent_of(cursor);
   const uint32_t scheme = cursor.u32();
-  if (scheme != 0) {
-    refuse(fmt::format("supercompressed with {}, which is not read; expected none",
+  constexpr uint32_t zstandard = 2;
+  if (scheme == zstandard) stored.supercompression = Supercompression::Zstd;
+  if (scheme != 0 && scheme != zstandard) {
+    refuse(fmt::format("supercompressed with {}, which is not read; expected Zstandard or none",
                        scheme_name(scheme)));
   }
   const std::optional<TexelFormat> texel = vulkan_texel(number);
@@ -198,14 +157,47 @@ StoredTexels ktx2_texels(ByteView bytes) {
   const uint32_t keys_at = cursor.u32();
   const uint32_t key_bytes = cursor.u32();
   cursor.skip(2 * 8);
-  const uint64_t first = cursor.u64();
+  const uint64_t first = cursor.u64(), length = cursor.u64();
   if (keys_at > bytes.size() || key_bytes > bytes.size() - keys_at) {
     refuse("truncated: the keys have no end");
   }
   read_keys(ByteCursor(bytes, keys_at), key_bytes, stored);
   stored.row_pitch = static_cast<size_t>(stored.width) * texel_bytes(stored.texel);
   stored.first = static_cast<size_t>(std::min<uint64_t>(first, bytes.size()));
+  stored.stored_bytes = length;
   return stored;
+}
+
+// Faces of a cube are aligned to 4 bytes each, and so is the level. Of arrays the size that stands
+// before a level is that of all its images, of a cube that of one face.
+std::vector<StoredLevel> ktx1_levels(const StoredTexels& stored, ByteView bytes) {
+  std::vector<StoredLevel> levels = empty_levels(stored);
+  const bool lone_cube = stored.faces > 1 && stored.layers == 1;
+  size_t at = stored.first - 4;
+  for (StoredLevel& level : levels) {
+    ByteCursor cursor(bytes, at);
+    cursor.set_big_endian(stored.big_endian);
+    const size_t size = (size_t{cursor.u32()} + 3) / 4 * 4;
+    level.row_pitch = (static_cast<size_t>(level.width) * texel_bytes(stored.texel) + 3) / 4 * 4;
+    level.first = at + 4;
+    level.face_step = lone_cube ? size : level.row_pitch * static_cast<size_t>(level.height);
+    at = level.first + size * static_cast<size_t>(lone_cube ? stored.faces : 1);
+  }
+  return levels;
+}
+
+std::vector<StoredLevel> ktx2_levels(const StoredTexels& stored, ByteView bytes) {
+  std::vector<StoredLevel> levels = empty_levels(stored);
+  constexpr size_t index_at = 80;
+  ByteCursor cursor(bytes, index_at);
+  for (StoredLevel& level : levels) {
+    level.first = static_cast<size_t>(std::min<uint64_t>(cursor.u64(), bytes.size()));
+    level.stored_bytes = cursor.u64();
+    cursor.skip(8);
+    level.row_pitch = static_cast<size_t>(level.width) * texel_bytes(stored.texel);
+    level.face_step = level.row_pitch * static_cast<size_t>(level.height);
+  }
+  return levels;
 }
 
 }  // namespace kiln::io

@@ -31,8 +31,10 @@ NumberArray::Stored stored_as(PixelType type) {
     case PixelType::Uint16:
       return Uint16;
     case PixelType::Half:
+    case PixelType::B10g11r11:
       return Half;
     case PixelType::Float:
+    case PixelType::E5b9g9r9:
       return Float;
     case PixelType::Rgb10a2:
       return Rgb10a2;

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStringAttribute.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -16,58 +12,23 @@
 
 #include "kiln/core/error.h"
 #include "openexr_file.h"
+#include "openexr_header.h"
+#include "openexr_stream.h"
 #include "samples.h"
 
 namespace kiln::io {
 namespace {
 
-class ExrStream : public Imf::OStream {
- public:
-  ExrStream(const std::string& shown_name, ByteStream& out)
-      : Imf::OStream(shown_name.c_str()), out_(out) {}
-
-  void write(const char bytes[], int count) override {
-    out_.append({bytes, static_cast<size_t>(count)});
-  }
-  uint64_t tellp() override { return out_.position(); }
-  void seekp(uint64_t position) override { out_.seek(position); }
-
- private:
-  ByteStream& out_;
-};
-
 Imf::Header header_of(Size size, const StoredPlanes& layout, const WriteOptions& options) {
   Imf::Header header(size.width, size.height);
   header.compression() =
       options.packing == Packing::Fast ? Imf::NO_COMPRESSION : Imf::ZIP_COMPRESSION;
-  const Imf::PixelType type = options.type == PixelType::Half ? Imf::HALF : Imf::FLOAT;
-  for (const std::string& name : layout.names) {
-    if (header.channels().findChannel(name) != nullptr || name.empty()) {
-      throw Error(Fault::Usage, fmt::format("channel name '{}' is empty or used twice", name));
-    }
-    header.channels().insert(name, Imf::Channel(type));
-  }
-  for (const auto& [name, text] : options.attributes) {
-    if (name.empty() || header.find(name) != header.end()) {
-      throw Error(Fault::Usage,
-                  fmt::format("metadata name '{}' is empty, used twice or the format's own", name));
-    }
-    header.insert(name, Imf::StringAttribute(text));
-  }
+  add_channels(layout.names, options.type, header);
+  add_attributes(options.attributes, header);
   return header;
 }
 
 bool is_color(const std::string& name) { return channel_rank(name) < channel_rank("A"); }
-
-// The library's exceptions become the project's.
-template <class Work>
-void guarded(Work&& work) {
-  try {
-    work();
-  } catch (const std::exception& error) {
-    throw Error(Fault::Output, fmt::format("cannot write: {}", error.what()));
-  }
-}
 
 // Writes rows in blocks of what ZIP compresses at once, and no rounding depends on their number.
 class ExrEncoder : public BandEncoder {
@@ -79,7 +40,7 @@ class ExrEncoder : public BandEncoder {
         scratch_(static_cast<size_t>(file.size.width)),
         stream_(file.path.string(), file.out) {
     const Imf::Header header = header_of(file.size, layout, file.options);
-    guarded([&] { output_.emplace(stream_, header, 0); });
+    writing_openexr([&] { output_.emplace(stream_, header, 0); });
   }
 
   void add(const StoredPlanes& band) override {
@@ -87,7 +48,7 @@ class ExrEncoder : public BandEncoder {
     for (int first = 0; first < height; first += rows) {
       const int count = std::min(rows, height - first);
       for (size_t c = 0; c < band.planes.size(); ++c) fill(band, c, first, count);
-      guarded([&] {
+      writing_openexr([&] {
         output_->setFrameBuffer(frame_of(band.names));
         output_->writePixels(count);
       });
@@ -122,7 +83,7 @@ class ExrEncoder : public BandEncoder {
 
   Imf::FrameBuffer frame_of(const std::vector<std::string>& names) {
     Imf::FrameBuffer frame;
-    const Imf::PixelType type = file_.options.type == PixelType::Half ? Imf::HALF : Imf::FLOAT;
+    const Imf::PixelType type = library_type(file_.options.type);
     for (size_t c = 0; c < names.size(); ++c) {
       frame.insert(names[c], Imf::Slice::Make(type, stored_row(c, 0), Imath::V2i(0, written_),
                                               file_.size.width, rows));

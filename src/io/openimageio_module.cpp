@@ -172,6 +172,8 @@ OIIO::TypeDesc library_type(PixelType type) {
     case PixelType::Float:
     case PixelType::Rgb10a2:
     case PixelType::Rgbd8:
+    case PixelType::B10g11r11:
+    case PixelType::E5b9g9r9:
       return OIIO::TypeFloat;
   }
   return OIIO::TypeFloat;

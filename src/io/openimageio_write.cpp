@@ -28,9 +28,15 @@ Attributes attributes_for(const FileToWrite& file) {
   return file.format == "tiff" ? as_tiff_tags(attributes) : attributes;
 }
 
-void write_to(void* stream, uint64_t place, const void* bytes, size_t count) {
-  auto& out = *static_cast<ByteStream*>(stream);
-  out.seek(place);
+// Where a file begins in a stream.
+struct Beginning {
+  ByteStream& out;
+  uint64_t place = 0;
+};
+
+void write_to(void* beginning, uint64_t place, const void* bytes, size_t count) {
+  const auto& [out, first] = *static_cast<const Beginning*>(beginning);
+  out.seek(first + place);
   out.append({static_cast<const char*>(bytes), count});
 }
 
@@ -42,6 +48,7 @@ class OpenImageIoEncoder : public BandEncoder {
         row_bytes_(static_cast<size_t>(file.size.width) * layout.planes.size() *
                    sample_bytes(file.options.type)),
         samples_(row_bytes_ * block_rows),
+        beginning_{file.out, file.out.position()},
         writer_(create(layout), openimageio().drop) {
     if (!writer_) fail();
   }
@@ -63,7 +70,7 @@ class OpenImageIoEncoder : public BandEncoder {
   }
 
  private:
-  module::Writer* create(const StoredPlanes& layout) const {
+  module::Writer* create(const StoredPlanes& layout) {
     const Attributes attributes = attributes_for(file_);
     std::vector<module::Attribute> texts;
     for (const auto& [name, text] : attributes) texts.push_back({name.c_str(), text.c_str()});
@@ -76,7 +83,7 @@ class OpenImageIoEncoder : public BandEncoder {
     image.alpha_channel = layout.alpha_channel;
     image.texts = texts.data();
     image.text_count = static_cast<int>(texts.size());
-    const module::Sink sink{&file_.out, write_to};
+    const module::Sink sink{&beginning_, write_to};
     return openimageio().create(&image, &sink);
   }
 
@@ -99,6 +106,7 @@ class OpenImageIoEncoder : public BandEncoder {
   std::string format_;
   size_t row_bytes_;
   std::vector<std::byte> samples_;
+  Beginning beginning_;
   std::unique_ptr<module::Writer, void (*)(module::Writer*)> writer_;
   int written_ = 0;
 };

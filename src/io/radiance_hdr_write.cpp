@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "attribute_lines.h"
+#include "kiln/core/error.h"
 #include "radiance_hdr.h"
 #include "samples.h"
 
@@ -123,3 +124,29 @@ std::unique_ptr<BandEncoder> hdr_encoder(const FileToWrite& file) {
 }
 
 }  // namespace kiln::io
+
+namespace kiln {
+
+Layers coded_as_hdr(const Layers& image) {
+  if (image.layers.size() != 3) {
+    throw Error(Fault::Usage,
+                fmt::format("found {} layers; Radiance HDR shares an exponent among 3",
+                            image.layers.size()));
+  }
+  Layers result = image;
+  WriteFacts facts;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x) {
+      std::array<float, 3> value{};
+      for (size_t c = 0; c < 3; ++c) value[c] = io::held(image.layers[c].plane.at(x, y), facts);
+      const io::Rgbe texel = io::rgbe(value[0], value[1], value[2]);
+      for (size_t c = 0; c < 3; ++c) {
+        result.layers[c].plane.at(x, y) =
+            texel[3] == 0 ? 0.0f : std::ldexp(static_cast<float>(texel[c]), texel[3] - 136);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace kiln

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -59,14 +60,23 @@ void store_row(std::span<const float> row, size_t step, std::byte* stored, Narro
 
 }  // namespace
 
-uint32_t quantised(float value, uint32_t max, WriteFacts& facts) {
+float clamped(float value, float max, WriteFacts& facts) {
   if (std::isnan(value)) {
     ++facts.not_a_number;
-    return 0;
+    return 0.0f;
   }
-  const bool inside = value >= 0.0f && value <= 1.0f;
+  const bool inside = value >= 0.0f && value <= max;
   if (!inside && std::isfinite(value)) count_clamped(value, facts);
-  return static_cast<uint32_t>(std::lround(std::clamp(static_cast<double>(value), 0.0, 1.0) * max));
+  return std::clamp(value, 0.0f, max);
+}
+
+uint32_t quantised(float value, uint32_t max, WriteFacts& facts) {
+  const auto inside = static_cast<double>(clamped(value, 1.0f, facts));
+  return static_cast<uint32_t>(std::lround(inside * max));
+}
+
+bool is_packed(PixelType type) {
+  return type == PixelType::Rgb10a2 || type == PixelType::B10g11r11 || type == PixelType::E5b9g9r9;
 }
 
 size_t sample_bytes(PixelType type) {
@@ -79,6 +89,8 @@ size_t sample_bytes(PixelType type) {
     case PixelType::Float:
     case PixelType::Rgb10a2:
     case PixelType::Rgbd8:
+    case PixelType::B10g11r11:
+    case PixelType::E5b9g9r9:
       return 4;
   }
   return 4;
@@ -95,6 +107,8 @@ void load_samples(const std::byte* stored, PixelType type, size_t step, std::spa
     case PixelType::Float:
     case PixelType::Rgb10a2:
     case PixelType::Rgbd8:
+    case PixelType::B10g11r11:
+    case PixelType::E5b9g9r9:
       return load_row<float>(stored, step, row);
   }
 }
@@ -114,6 +128,8 @@ void store_samples(std::span<const float> row, PixelType type, size_t step, std:
     case PixelType::Float:
     case PixelType::Rgb10a2:
     case PixelType::Rgbd8:
+    case PixelType::B10g11r11:
+    case PixelType::E5b9g9r9:
       return store_row<float>(row, step, stored, [](float value) { return value; });
   }
 }
@@ -138,6 +154,28 @@ void require_within(const ReadLimits& limits, long long width, long long height,
     throw Error(Fault::Input,
                 fmt::format("the header claims {} channels; more than {} are not read", channels,
                             limits.max_channels));
+  }
+}
+
+void require_levels_within(const ReadLimits& limits, long long width, long long height,
+                           long long levels, long long faces) {
+  require_within(limits, width, height, 1);
+  const auto edge = static_cast<unsigned long long>(std::max(width, height));
+  if (levels < 1 || levels > static_cast<long long>(std::bit_width(edge))) {
+    throw Error(Fault::Input,
+                fmt::format("the header claims {} mip levels of {} x {} texels, which have 1 to {}",
+                            levels, width, height, std::bit_width(edge)));
+  }
+  long long texels = 0;
+  for (long long level = 0; level < levels; ++level) {
+    texels += std::max(1LL, width >> level) * std::max(1LL, height >> level);
+  }
+  if (faces < 1 || texels > limits.max_texels / faces) {
+    throw Error(
+        Fault::Input,
+        fmt::format("the header claims {} levels of {} faces with {} x {} texels; more than "
+                    "{} texels in all are not read",
+                    levels, faces, width, height, limits.max_texels));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <string_view>
 
+#include "env_file.h"
 #include "kiln/core/error.h"
 #include "kiln/core/names.h"
 
@@ -35,6 +36,7 @@ constexpr std::array signatures{Signature{"openexr", "\x76\x2f\x31\x01"sv},
                                 Signature{"ktx", "\xabKTX 11\xbb\r\n\x1a\n"sv},
                                 Signature{"ktx2", "\xabKTX 20\xbb\r\n\x1a\n"sv},
                                 Signature{"npy", "\x93NUMPY"sv},
+                                Signature{"env", env_signature},
                                 Signature{"dpx", "SDPX"sv},
                                 Signature{"dpx", "XPDS"sv},
                                 Signature{"pnm", "P1"sv},

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kiln/image/plane.h"
+#include "kiln/image/layers.h"
 
 namespace kiln::io {
 
@@ -17,5 +17,12 @@ struct StoredPlanes {
 
   Size size() const { return planes.front()->size(); }
 };
+
+/// R G B A (or Y A) in that order where all names are of these, else as the layers stand.
+/// @param labels  to stand for the names, in the order of the layers; else empty
+StoredPlanes in_file_order(const Layers& image, const std::vector<std::string>& labels = {});
+
+/// The planes of an image as they stand, the last of four being alpha.
+StoredPlanes planes_of(const Layers& image);
 
 }  // namespace kiln::io

@@ -6,49 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "kiln/core/error.h"
+#include "packed_texel.h"
 #include "samples.h"
+#include "zstd_bytes.h"
 
 namespace kiln::io {
 namespace {
-
-bool is_packed(Coding coding) {
-  return coding == Coding::Rgb10a2 || coding == Coding::R11g11b10f || coding == Coding::Rgb9e5;
-}
-
-// 5 bits of exponent, bias 15, over `mantissa_bits` of mantissa; no sign.
-float small_float(uint32_t bits, int mantissa_bits) {
-  const uint32_t exponent = bits >> mantissa_bits & 31;
-  const uint32_t mantissa = bits & ((1u << mantissa_bits) - 1);
-  if (exponent == 31) return mantissa == 0 ? INFINITY : NAN;
-  const auto value = static_cast<float>(mantissa);
-  if (exponent == 0) return std::ldexp(value, -14 - mantissa_bits);
-  return std::ldexp(value + static_cast<float>(1u << mantissa_bits),
-                    static_cast<int>(exponent) - 15 - mantissa_bits);
-}
-
-std::array<float, 4> unpacked(uint32_t bits, Coding coding) {
-  if (coding == Coding::R11g11b10f) {
-    return {small_float(bits & 2047, 6), small_float(bits >> 11 & 2047, 6),
-            small_float(bits >> 22, 5), 1.0f};
-  }
-  std::array<float, 4> texel{};
-  if (coding == Coding::Rgb9e5) {
-    const int exponent = static_cast<int>(bits >> 27) - 24;  // bias 15, 9 bits of mantissa
-    for (size_t c = 0; c < 3; ++c) {
-      texel[c] = std::ldexp(static_cast<float>(bits >> (9 * c) & 511), exponent);
-    }
-    return texel;
-  }
-  for (size_t c = 0; c < 3; ++c) {
-    texel[c] = static_cast<float>(bits >> (10 * c) & 1023) / 1023.0f;
-  }
-  texel[3] = static_cast<float>(bits >> 30) / 3.0f;
-  return texel;
-}
 
 // The plane of each channel of memory, nullptr for X, in the order of kiln's images.
 std::vector<std::string> channel_names(const TexelFormat& format) {
@@ -81,8 +47,8 @@ void swap_samples(std::vector<std::byte>& row, size_t sample) {
 void place_row(const std::vector<std::byte>& row, const TexelFormat& format, int y,
                const std::vector<Plane*>& planes) {
   const size_t width = row.size() / texel_bytes(format);
-  if (!is_packed(format.coding)) {
-    const PixelType type = held_as(format.coding);
+  const PixelType type = coded_as(format.coding);
+  if (!is_packed(type)) {
     for (size_t c = 0; c < planes.size(); ++c) {
       if (planes[c] == nullptr) continue;
       load_samples(row.data() + c * sample_bytes(type), type, planes.size(),
@@ -93,11 +59,40 @@ void place_row(const std::vector<std::byte>& row, const TexelFormat& format, int
   for (size_t x = 0; x < width; ++x) {
     uint32_t bits = 0;
     std::memcpy(&bits, row.data() + 4 * x, sizeof bits);
-    const std::array<float, 4> texel = unpacked(bits, format.coding);
+    const std::array<float, 4> texel = unpacked(bits, type);
     for (size_t c = 0; c < planes.size(); ++c) {
       if (planes[c] != nullptr) planes[c]->row(y)[x] = texel[c];
     }
   }
+}
+
+// Bytes of a level: all its layers, faces and slices. @error when it has more texels than allowed
+size_t level_bytes(const StoredTexels& stored, const ReadLimits& limits) {
+  long long texels = 1;
+  for (const long long count :
+       {stored.width, stored.height, stored.depth, stored.layers, stored.faces}) {
+    if (count < 1 || texels > limits.max_texels / count) {
+      throw Error(Fault::Input,
+                  fmt::format("the header claims {} x {} x {} texels, {} layers and {} faces; more "
+                              "than {} texels are not read",
+                              stored.width, stored.height, stored.depth, stored.layers,
+                              stored.faces, limits.max_texels));
+    }
+    texels *= count;
+  }
+  return static_cast<size_t>(texels) * texel_bytes(stored.texel);
+}
+
+// The part of the file that holds the supercompressed level.
+ByteView stored_level(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  const size_t texels = level_bytes(stored, limits);
+  if (stored.first > bytes.size() || stored.stored_bytes > bytes.size() - stored.first ||
+      !zstd_may_hold(stored.stored_bytes, texels)) {
+    throw Error(Fault::Input,
+                fmt::format("truncated: the header claims {} bytes of texels in {} bytes", texels,
+                            stored.stored_bytes));
+  }
+  return bytes.subspan(stored.first, stored.stored_bytes);
 }
 
 // @error when the texels do not lie within the bytes
@@ -116,29 +111,49 @@ void check_bytes(const StoredTexels& stored, ByteView bytes) {
   }
 }
 
+std::vector<std::string> what_is_left(const StoredTexels& stored) {
+  std::vector<std::string> notes;
+  if (stored.faces > 1) notes.emplace_back("a cube; its first face is read");
+  if (stored.layers > 1) {
+    notes.push_back(fmt::format("an array of {}; the first is read", stored.layers));
+  }
+  if (stored.levels > 1) {
+    notes.push_back(fmt::format("{} mip levels; the largest is read", stored.levels));
+  }
+  return notes;
+}
+
 }  // namespace
 
 size_t texel_bytes(const TexelFormat& format) {
-  return is_packed(format.coding) ? 4
-                                  : format.channels.size() * sample_bytes(held_as(format.coding));
+  const PixelType type = coded_as(format.coding);
+  return is_packed(type) ? 4 : format.channels.size() * sample_bytes(type);
 }
 
-PixelType held_as(Coding coding) {
+PixelType coded_as(Coding coding) {
   switch (coding) {
     case Coding::Unorm8:
       return PixelType::Uint8;
     case Coding::Unorm16:
       return PixelType::Uint16;
     case Coding::Half:
-    case Coding::R11g11b10f:
       return PixelType::Half;
     case Coding::Rgb10a2:
       return PixelType::Rgb10a2;
     case Coding::Float:
-    case Coding::Rgb9e5:
       return PixelType::Float;
+    case Coding::R11g11b10f:
+      return PixelType::B10g11r11;
+    case Coding::Rgb9e5:
+      return PixelType::E5b9g9r9;
   }
   return PixelType::Float;
+}
+
+PixelType held_as(Coding coding) {
+  const PixelType type = coded_as(coding);
+  if (type == PixelType::B10g11r11) return PixelType::Half;
+  return type == PixelType::E5b9g9r9 ? PixelType::Float : type;
 }
 
 FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
@@ -152,7 +167,11 @@ FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const Read
   }
   require_within(limits, stored.width, stored.height * stored.depth,
                  static_cast<long long>(names.size()));
-  check_bytes(stored, bytes);
+  if (stored.supercompression == Supercompression::None) {
+    check_bytes(stored, bytes);
+  } else {
+    stored_level(stored, bytes, limits);
+  }
   FileFacts facts;
   facts.format = stored.format;
   facts.size = {static_cast<int>(stored.width), static_cast<int>(stored.height * stored.depth)};
@@ -160,7 +179,8 @@ FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const Read
   facts.type = held_as(stored.texel.coding);
   if (stored.texel.srgb) facts.color_space_tag = "srgb_rec709_scene";
   facts.attributes = stored.attributes;
-  facts.notes = stored.notes;
+  facts.notes = what_is_left(stored);
+  facts.notes.insert(facts.notes.end(), stored.notes.begin(), stored.notes.end());
   if (stored.depth > 1) {
     facts.notes.push_back(
         fmt::format("a volume: {} slices of {} x {} texels stand one below the other", stored.depth,
@@ -169,15 +189,25 @@ FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const Read
   return facts;
 }
 
+Bytes inflated_level(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  return zstd_inflated(stored_level(stored, bytes, limits), level_bytes(stored, limits));
+}
+
 Volume read_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits) {
+  if (stored.supercompression != Supercompression::None) {
+    const Bytes level = inflated_level(stored, bytes, limits);
+    StoredTexels plain = stored;
+    plain.first = 0;
+    plain.supercompression = Supercompression::None;
+    return read_texels(plain, level, limits);
+  }
   Volume volume;
   volume.depth = static_cast<int>(stored.depth);
   volume.file.facts = facts_of_texels(stored, bytes, limits);
   volume.file.image = make_layers(volume.file.facts.size, volume.file.facts.channels);
   const std::vector<Plane*> planes = planes_in_memory_order(stored.texel, volume.file.image);
   const auto height = static_cast<int>(stored.height);
-  const size_t sample =
-      is_packed(stored.texel.coding) ? 4 : sample_bytes(held_as(stored.texel.coding));
+  const size_t sample = sample_bytes(coded_as(stored.texel.coding));
   std::vector<std::byte> row(static_cast<size_t>(stored.width) * texel_bytes(stored.texel));
   for (int y = 0; y < volume.file.facts.size.height; ++y) {
     const size_t at = stored.first + static_cast<size_t>(y) * stored.row_pitch;

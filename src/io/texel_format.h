@@ -7,6 +7,7 @@
 
 #include "file_bytes.h"
 #include "kiln/io/image_file.h"
+#include "kiln/io/texture_file.h"
 
 namespace kiln::io {
 
@@ -30,20 +31,29 @@ struct TexelFormat {
 
 size_t texel_bytes(const TexelFormat& format);
 
-/// The smallest type that holds it.
+/// The type that is coded so.
+PixelType coded_as(Coding coding);
+
+/// The smallest type of whole samples, or Rgb10a2, that holds it.
 PixelType held_as(Coding coding);
 
-/// Uncompressed texels inside a container's bytes.
+/// Texels that are not block-compressed inside a container's bytes: the first face of the largest
+/// level, and how many others there are.
 struct StoredTexels {
   std::string format;  ///< "dds", ...
   TexelFormat texel;
   long long width = 0;
   long long height = 0;
   long long depth = 1;
+  long long layers = 1;  ///< elements of an array
+  long long faces = 1;
+  long long levels = 1;
   size_t row_pitch = 0;     ///< [byte]
-  size_t first = 0;         ///< where the first row begins
+  size_t first = 0;         ///< where the first row begins, or the supercompressed level
   bool big_endian = false;  ///< samples
   bool rows_from_below = false;
+  Supercompression supercompression = Supercompression::None;
+  size_t stored_bytes = 0;  ///< of the supercompressed level
   Attributes attributes = {};
   std::vector<std::string> notes = {};
 };
@@ -53,11 +63,15 @@ struct Volume {
   int depth = 1;
 };
 
-/// Checks sizes against the limits and the bytes.
+/// Checks sizes against the limits and the bytes; notes what of the file is not of this one face.
 /// @error Fault::Input, without the path, when too large or truncated
 FileFacts facts_of_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits);
 
-/// @error as facts_of_texels
+/// @error as facts_of_texels, and when a supercompressed level is damaged
 Volume read_texels(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits);
+
+/// The level that is stored supercompressed, all of its layers, faces and slices.
+/// @error as read_texels
+Bytes inflated_level(const StoredTexels& stored, ByteView bytes, const ReadLimits& limits);
 
 }  // namespace kiln::io

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texel_pack.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <span>
 
+#include "kiln/core/error.h"
+#include "packed_texel.h"
+#include "rgbd.h"
 #include "samples.h"
 
 namespace kiln::io {
@@ -22,49 +26,25 @@ float value_at(const StoredPlanes& stored, size_t channel, int x, int y) {
   return absent ? filling(channel) : stored.planes[channel]->at(x, y);
 }
 
-std::string rgb10a2_texels(Size size, const StoredPlanes& stored, WriteFacts& facts) {
-  std::string bytes(static_cast<size_t>(area(size)) * 4, '\0');
+std::string packed_words(Size size, const StoredPlanes& stored, PixelType type, WriteFacts& facts) {
+  std::string bytes(static_cast<size_t>(area(size)) * sizeof(uint32_t), '\0');
   char* at = bytes.data();
   for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x, at += 4) {
-      uint32_t texel = quantised(value_at(stored, 3, x, y), 3, facts) << 30;
-      for (size_t c = 0; c < 3; ++c) {
-        texel |= quantised(value_at(stored, c, x, y), 1023, facts) << (10 * c);
-      }
-      std::memcpy(at, &texel, sizeof texel);
+    for (int x = 0; x < size.width; ++x, at += sizeof(uint32_t)) {
+      std::array<float, 4> texel{};
+      for (size_t c = 0; c < texel.size(); ++c) texel[c] = value_at(stored, c, x, y);
+      const uint32_t bits = packed(texel, type, facts);
+      std::memcpy(at, &bits, sizeof bits);
     }
   }
   return bytes;
-}
-
-// Largest value that a = 1 holds.
-constexpr float rgbd_max = 255.0f;
-
-float held_by_rgbd(float value, WriteFacts& facts) {
-  if (std::isnan(value)) {
-    ++facts.not_a_number;
-    return 0.0f;
-  }
-  if (std::isfinite(value) && (value < 0.0f || value > rgbd_max)) count_clamped(value, facts);
-  return std::clamp(value, 0.0f, rgbd_max);
-}
-
-// The largest a with max * a <= 255, and colours (value * a / 255)^(1/2.2), in bytes over 255.
-std::array<float, 4> rgbd(const std::array<float, 3>& color) {
-  const float max = std::max({color[0], color[1], color[2], 1.0f});
-  const float a = std::floor(255.0f / max);
-  std::array<float, 4> texel{0.0f, 0.0f, 0.0f, a / 255.0f};
-  for (size_t c = 0; c < 3; ++c) {
-    texel[c] = std::min(1.0f, std::pow(color[c] * a / 255.0f, 1.0f / 2.2f));
-  }
-  return texel;
 }
 
 }  // namespace
 
 std::string packed_texels(Size size, const StoredPlanes& stored, int channels, PixelType type,
                           WriteFacts& facts) {
-  if (type == PixelType::Rgb10a2) return rgb10a2_texels(size, stored, facts);
+  if (is_packed(type)) return packed_words(size, stored, type, facts);
   const auto step = static_cast<size_t>(channels);
   const size_t row_bytes = static_cast<size_t>(size.width) * step * sample_bytes(type);
   std::string bytes(row_bytes * static_cast<size_t>(size.height), '\0');
@@ -87,22 +67,29 @@ Layers rgbd_image(Size size, const StoredPlanes& stored, WriteFacts& facts) {
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       std::array<float, 3> color{};
-      for (size_t c = 0; c < 3; ++c) color[c] = held_by_rgbd(value_at(stored, c, x, y), facts);
-      const std::array<float, 4> texel = rgbd(color);
+      for (size_t c = 0; c < 3; ++c) color[c] = value_at(stored, c, x, y);
+      const std::array<float, 4> texel = rgbd_texel(color, facts);
       for (size_t c = 0; c < 4; ++c) image.layers[c].plane.at(x, y) = texel[c];
     }
   }
   return image;
 }
 
-StoredPlanes planes_of(const Layers& image) {
-  StoredPlanes stored;
-  for (const Layer& layer : image.layers) {
-    stored.planes.push_back(&layer.plane);
-    stored.names.push_back(layer.name);
-  }
-  if (stored.planes.size() == 4) stored.alpha_channel = 3;
-  return stored;
+void require_room(const StoredPlanes& stored, PixelType type) {
+  const bool colors_only =
+      type == PixelType::Rgbd8 || type == PixelType::B10g11r11 || type == PixelType::E5b9g9r9;
+  const size_t most = colors_only ? 3 : type == PixelType::Rgb10a2 ? 4 : stored.planes.size();
+  if (stored.planes.size() <= most && (!colors_only || stored.alpha_channel < 0)) return;
+  throw Error(Fault::Usage,
+              fmt::format("found {} channels; {} holds 1 to {}{}", stored.planes.size(),
+                          pixel_type_name(type), most,
+                          type == PixelType::Rgbd8 ? ", its alpha is a divisor of theirs"
+                          : colors_only            ? " and no alpha"
+                                                   : ""));
+}
+
+size_t packed_texel_bytes(PixelType type, int channels) {
+  return is_packed(type) ? sizeof(uint32_t) : static_cast<size_t>(channels) * sample_bytes(type);
 }
 
 }  // namespace kiln::io

@@ -4,193 +4,221 @@
 #include "fourier.h"
 #include "kiln/image/projection.h"
 #include "kiln/parallel/rows.h"
-#include "legendre.h"
 
 namespace kiln {
 namespace {
 
 constexpr int lanes = lane_count<WideDouble>;
 
-/// For each m and ring pair, the Fourier coefficients of the pair's sum and difference.
+/// For each m, colour and block of ring pairs: the Fourier coefficients of the pair's sum, which
+/// meet the P_lm that are even about the equator, and of its difference, which meet the odd ones.
 struct RingSpectra {
-  enum Part { SumRe, SumIm, DifferenceRe, DifferenceIm };
-  static constexpr int parts = 4;
+  static constexpr size_t parts = 6;  ///< re, im of red, green, blue
 
-  RingSpectra(int order, const RingPairs& rings)
-      : padded(static_cast<size_t>(rings.padded())),
-        values(static_cast<size_t>(order + 1) * 3 * parts * padded) {}
+  RingSpectra(int order, int blocks_in)
+      : blocks(static_cast<size_t>(blocks_in)),
+        sums(static_cast<size_t>(order + 1) * parts * blocks),
+        differences(sums.size()) {}
 
-  double* row(int m, int color, int part) {
-    return values.data() + static_cast<size_t>((m * 3 + color) * parts + part) * padded;
-  }
-  const double* row(int m, int color, int part) const {
-    return values.data() + static_cast<size_t>((m * 3 + color) * parts + part) * padded;
-  }
+  size_t first(int m) const { return static_cast<size_t>(m) * parts * blocks; }
 
-  size_t padded;
-  std::vector<double> values;
+  size_t blocks;
+  std::vector<WideDouble> sums, differences;  ///< [m][part][block]
 };
 
 /// What the rings of an image have in common.
 struct Rings {
-  Size size;
-  const std::vector<std::vector<double>>& radiance;
+  const ColorPlanes& image;
+  const PowerLimit& limit;
   RingPairs pairs;
   Fourier fourier;
-  Spectrum half_texel;  ///< exp(-i m pi / width): from the first texel's centre to its edge
+  std::vector<double> turn_re, turn_im;  ///< exp(-i m pi / width): from the first texel to its edge
 };
 
-Spectrum half_texel_turns(int width, int order) {
-  Spectrum turns(order + 1);
+Rings make_rings(const ColorPlanes& image, const PowerLimit& limit, int order) {
+  Rings rings{image, limit, RingPairs(image.size.height), Fourier(image.size.width), {}, {}};
   for (int m = 0; m <= order; ++m) {
-    turns.re[static_cast<size_t>(m)] = std::cos(pi * m / width);
-    turns.im[static_cast<size_t>(m)] = -std::sin(pi * m / width);
+    rings.turn_re.push_back(std::cos(pi * m / image.size.width));
+    rings.turn_im.push_back(-std::sin(pi * m / image.size.width));
   }
-  return turns;
+  return rings;
 }
 
-// One transform serves both rings: of (north + south) + i (north - south).
-Spectrum transform_pair(const Rings& rings, int pair, int color) {
-  const int width = rings.size.width, south = rings.size.height - 1 - pair;
-  const std::vector<double>& upper = rings.radiance[static_cast<size_t>(pair)];
-  const std::vector<double>& lower = rings.radiance[static_cast<size_t>(south)];
-  const double solid_angle = latlong_texel_solid_angle(rings.size, pair);
-  Spectrum ring(width);
-  for (int x = 0; x < width; ++x) {
-    const auto at = static_cast<size_t>(3 * x + color);
-    const double a = upper[at], b = rings.pairs.has_south(pair) ? lower[at] : 0.0;
-    ring.re[static_cast<size_t>(x)] = (a + b) * solid_angle;
-    ring.im[static_cast<size_t>(x)] = (a - b) * solid_angle;
+// One lane: north + south as the real part, north - south as the imaginary.
+void load_pair(const Rings& rings, int pair, size_t color, int lane, Spectrum& ring) {
+  const Plane& plane = *rings.image.planes[color];
+  const float* north = plane.row(pair);
+  const float* south = plane.row(rings.image.size.height - 1 - pair);
+  const double solid_angle = latlong_texel_solid_angle(rings.image.size, pair);
+  const float most = rings.limit.radiance(color, solid_angle);
+  const auto held = [most](float value) { return std::abs(value) > most ? 0.0f : value; };
+  const double southern = rings.pairs.has_south(pair) ? solid_angle : 0.0;
+  auto* re = reinterpret_cast<double*>(ring.re.data()) + lane;
+  auto* im = reinterpret_cast<double*>(ring.im.data()) + lane;
+  for (int x = 0; x < rings.image.size.width; ++x) {
+    const double a = held(north[x]) * solid_angle, b = held(south[x]) * southern;
+    re[x * lanes] = a + b;
+    im[x * lanes] = a - b;
   }
-  rings.fourier.forward(ring);
-  return ring;
 }
 
 // Separates the two real transforms and moves their origin to the edge of the image.
-void store_pair(const Spectrum& ring, const Spectrum& half_texel, int pair, int color,
-                RingSpectra& spectra) {
-  const size_t width = ring.re.size(), bands = half_texel.re.size();
-  const auto at = static_cast<size_t>(pair);
+void store_block(const Rings& rings, const Spectrum& ring, int block, size_t color,
+                 RingSpectra& spectra) {
+  const size_t width = ring.re.size(), bands = rings.turn_re.size();
+  const WideDouble half(0.5);
   for (size_t k = 0; k < bands; ++k) {
-    const auto m = static_cast<int>(k);
     const size_t mirror = (width - k) % width;
-    const double sum_re = 0.5 * (ring.re[k] + ring.re[mirror]);
-    const double sum_im = 0.5 * (ring.im[k] - ring.im[mirror]);
-    const double difference_re = 0.5 * (ring.im[k] + ring.im[mirror]);
-    const double difference_im = 0.5 * (ring.re[mirror] - ring.re[k]);
-    const double c = half_texel.re[k], s = half_texel.im[k];
-    spectra.row(m, color, RingSpectra::SumRe)[at] = sum_re * c - sum_im * s;
-    spectra.row(m, color, RingSpectra::SumIm)[at] = sum_re * s + sum_im * c;
-    spectra.row(m, color, RingSpectra::DifferenceRe)[at] = difference_re * c - difference_im * s;
-    spectra.row(m, color, RingSpectra::DifferenceIm)[at] = difference_re * s + difference_im * c;
+    const WideDouble sum_re = half * (ring.re[k] + ring.re[mirror]);
+    const WideDouble sum_im = half * (ring.im[k] - ring.im[mirror]);
+    const WideDouble difference_re = half * (ring.im[k] + ring.im[mirror]);
+    const WideDouble difference_im = half * (ring.re[mirror] - ring.re[k]);
+    const WideDouble c(rings.turn_re[k]), s(rings.turn_im[k]);
+    const size_t re = spectra.first(static_cast<int>(k)) + 2 * color * spectra.blocks +
+                      static_cast<size_t>(block);
+    const size_t im = re + spectra.blocks;
+    spectra.sums[re] = fma(sum_re, c, -(sum_im * s));
+    spectra.sums[im] = fma(sum_re, s, sum_im * c);
+    spectra.differences[re] = fma(difference_re, c, -(difference_im * s));
+    spectra.differences[im] = fma(difference_re, s, difference_im * c);
   }
 }
 
 RingSpectra transform_rings(const Rings& rings, int order) {
-  RingSpectra spectra(order, rings.pairs);
-  // A block at a time, so that no two threads write into one cache line.
-  for_rows(rings.pairs.blocks, [&](int block) {
-    const int end = std::min(rings.pairs.count, (block + 1) * lanes);
-    for (int pair = block * lanes; pair < end; ++pair) {
-      for (int color = 0; color < 3; ++color) {
-        store_pair(transform_pair(rings, pair, color), rings.half_texel, pair, color, spectra);
+  RingSpectra spectra(order, rings.pairs.blocks());
+  for_rows(rings.pairs.blocks(), [&](int block) {
+    Spectrum ring(rings.image.size.width), scratch;
+    for (size_t color = 0; color < 3; ++color) {
+      for (int lane = 0; lane < lanes; ++lane) {
+        const int pair = block * lanes + lane;
+        if (pair < rings.pairs.count) load_pair(rings, pair, color, lane, ring);
       }
+      rings.fourier.forward(ring, scratch);
+      store_block(rings, ring, block, color, spectra);
+      std::fill(ring.re.begin(), ring.re.end(), WideDouble(0.0));
+      std::fill(ring.im.begin(), ring.im.end(), WideDouble(0.0));
     }
   });
   return spectra;
 }
 
-// P_l and P_l-1 of one column on all rings.
+/// P_l of four successive l on the rings from the column's first block on.
 struct Sweep {
-  std::vector<double> current, previous;
+  static constexpr size_t rows = 4;
+  std::array<std::vector<WideDouble>, rows> p;
 
-  Sweep(const LegendreColumn& column, const RingPairs& rings, int first)
-      : current(static_cast<size_t>(rings.padded())), previous(current.size()) {
-    for (int v = first; v < rings.blocks; ++v) {
-      store_lanes(current.data() + v * lanes, column.seed(rings, v));
-    }
+  explicit Sweep(int blocks) {
+    for (auto& row : p) row.assign(static_cast<size_t>(blocks), WideDouble(0.0));
   }
 };
 
-void step(Sweep& sweep, const RingPairs& rings, int first, double scale, double back) {
-  for (int at = first * lanes; at < rings.padded(); at += lanes) {
-    const WideDouble p = load_lanes<WideDouble>(sweep.current.data() + at);
-    const WideDouble q = load_lanes<WideDouble>(sweep.previous.data() + at);
-    const WideDouble x = load_lanes<WideDouble>(rings.cosine.data() + at);
-    store_lanes(sweep.previous.data() + at, fma(WideDouble(scale) * x, p, -(WideDouble(back) * q)));
+// P_l for i = l - m from `i` to i + 3; rows 2 and 3 hold the two before.
+void advance(const LegendreColumn& column, const RingPairs& rings, size_t first, size_t i,
+             Sweep& sweep) {
+  const size_t last = column.scale.size() - 1;
+  const auto at = [last](size_t k) { return std::min(k, last); };
+  for (size_t v = first; v < sweep.p[0].size(); ++v) {
+    const WideDouble x = rings.cosine[v], before = sweep.p[2][v], previous = sweep.p[3][v];
+    const WideDouble a = i == 0 ? column.seed(rings.sine[v]) : column.next(i, x, previous, before);
+    const WideDouble b = column.next(at(i + 1), x, a, i == 0 ? WideDouble(0.0) : previous);
+    const WideDouble c = column.next(at(i + 2), x, b, a);
+    sweep.p[0][v] = a;
+    sweep.p[1][v] = b;
+    sweep.p[2][v] = c;
+    sweep.p[3][v] = column.next(at(i + 3), x, c, b);
   }
-  std::swap(sweep.current, sweep.previous);
+}
+
+using Sums = std::array<WideDouble, RingSpectra::parts>;
+
+ColorCoefficient added_up(const Sums& sums) {
+  ColorCoefficient result;
+  for (size_t k = 0; k < sums.size(); ++k) result[k] = xsimd::hadd(sums[k]);
+  return result;
+}
+
+// Two rows of one parity against the six parts of a spectrum: the sums stay in registers.
+std::array<ColorCoefficient, 2> project(const std::vector<WideDouble>& p,
+                                        const std::vector<WideDouble>& q, size_t first,
+                                        const WideDouble* spectra) {
+  const size_t blocks = p.size();
+  Sums of_p, of_q;
+  of_p.fill(WideDouble(0.0));
+  of_q.fill(WideDouble(0.0));
+  for (size_t v = first; v < blocks; ++v) {
+    for (size_t k = 0; k < RingSpectra::parts; ++k) {
+      const WideDouble part = spectra[k * blocks + v];
+      of_p[k] = fma(p[v], part, of_p[k]);
+      of_q[k] = fma(q[v], part, of_q[k]);
+    }
+  }
+  return {added_up(of_p), added_up(of_q)};
 }
 
 // P_lm is even about the equator where l + m is even, so it meets the pair's sum; else its
 // difference.
-ColorCoefficient project(const Sweep& sweep, const RingSpectra& spectra, int m, int first,
-                         int part) {
-  ColorCoefficient result;
-  const auto end = static_cast<int>(sweep.current.size());
-  const double* re[3];
-  const double* im[3];
-  WideDouble sum_re[3], sum_im[3];
-  for (int c = 0; c < 3; ++c) {
-    re[c] = spectra.row(m, c, part);
-    im[c] = spectra.row(m, c, part + 1);
-    sum_re[c] = sum_im[c] = WideDouble(0.0);
+std::vector<ColorCoefficient> analyse_column(const LegendreColumn& column, const RingPairs& rings,
+                                             const RingSpectra& spectra) {
+  const auto first = static_cast<size_t>(column.first_block(rings));
+  const size_t count = column.scale.size();
+  Sweep sweep(rings.blocks());
+  std::vector<ColorCoefficient> coefficients(count + Sweep::rows);
+  for (size_t i = 0; i < count; i += Sweep::rows) {
+    advance(column, rings, first, i, sweep);
+    const auto even =
+        project(sweep.p[0], sweep.p[2], first, spectra.sums.data() + spectra.first(column.m));
+    const auto odd = project(sweep.p[1], sweep.p[3], first,
+                             spectra.differences.data() + spectra.first(column.m));
+    coefficients[i] = even[0];
+    coefficients[i + 1] = odd[0];
+    coefficients[i + 2] = even[1];
+    coefficients[i + 3] = odd[1];
   }
-  for (int at = first * lanes; at < end; at += lanes) {
-    const WideDouble p = load_lanes<WideDouble>(sweep.current.data() + at);
-    for (int c = 0; c < 3; ++c) {
-      sum_re[c] = fma(p, load_lanes<WideDouble>(re[c] + at), sum_re[c]);
-      sum_im[c] = fma(p, load_lanes<WideDouble>(im[c] + at), sum_im[c]);
-    }
-  }
-  for (size_t c = 0; c < 3; ++c) {
-    result.re[c] = xsimd::hadd(sum_re[c]);
-    result.im[c] = xsimd::hadd(sum_im[c]);
-  }
-  return result;
-}
-
-std::vector<ColorCoefficient> analyse_column(const RingPairs& rings, const RingSpectra& spectra,
-                                             int m, int order) {
-  const LegendreColumn column(m, order);
-  const int first = column.first_block(rings);
-  Sweep sweep(column, rings, first);
-  std::vector<ColorCoefficient> coefficients(static_cast<size_t>(order + 1 - m));
-  for (size_t i = 0; i < coefficients.size(); ++i) {
-    if (i > 0) step(sweep, rings, first, column.scale[i], column.back[i]);
-    const int part = i % 2 == 0 ? RingSpectra::SumRe : RingSpectra::DifferenceRe;
-    coefficients[i] = project(sweep, spectra, m, first, part);
-  }
+  coefficients.resize(count);
   return coefficients;
 }
 
 // The constant 1 has no other m as long as order < width; by symmetry no odd l either.
-std::vector<double> analyse_constant(Size size, const RingPairs& rings, int order) {
-  const LegendreColumn column(0, order);
-  Sweep sweep(column, rings, 0);
-  std::vector<double> constant(static_cast<size_t>(order) + 1);
-  for (size_t l = 0; l < constant.size(); ++l) {
-    if (l > 0) step(sweep, rings, 0, column.scale[l], column.back[l]);
-    if (l % 2 == 1) continue;
-    for (int pair = 0; pair < rings.count; ++pair) {
-      const double ring = latlong_texel_solid_angle(size, pair) * size.width;
-      constant[l] +=
-          sweep.current[static_cast<size_t>(pair)] * ring * (rings.has_south(pair) ? 2 : 1);
+std::vector<double> analyse_constant(Size size, const RingPairs& rings,
+                                     const LegendreColumn& column) {
+  std::vector<WideDouble> weight, before(rings.sine.size(), WideDouble(0.0)), current = before;
+  for (int block = 0; block < rings.blocks(); ++block) {
+    double weights[lanes] = {};
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int pair = block * lanes + lane;
+      if (pair >= rings.count) continue;
+      weights[lane] =
+          latlong_texel_solid_angle(size, pair) * size.width * (rings.has_south(pair) ? 2 : 1);
     }
+    weight.push_back(load_lanes<WideDouble>(weights));
+  }
+  std::vector<double> constant(column.scale.size());
+  for (size_t l = 0; l < constant.size(); ++l) {
+    WideDouble sum(0.0);
+    for (size_t v = 0; v < weight.size(); ++v) {
+      const WideDouble p = l == 0 ? column.seed(rings.sine[v])
+                                  : column.next(l, rings.cosine[v], current[v], before[v]);
+      before[v] = current[v];
+      current[v] = p;
+      sum = fma(p, weight[v], sum);
+    }
+    if (l % 2 == 0) constant[l] = xsimd::hadd(sum);
   }
   return constant;
 }
 
 }  // namespace
 
-Expansion analyse(Size size, const std::vector<std::vector<double>>& radiance, int order) {
-  const Rings rings{size, radiance, RingPairs(size.height), Fourier(size.width),
-                    half_texel_turns(size.width, order)};
+Expansion analyse(const ColorPlanes& latlong, const PowerLimit& limit,
+                  const std::vector<LegendreColumn>& columns) {
+  const int order = static_cast<int>(columns.size()) - 1;
+  const Rings rings = make_rings(latlong, limit, order);
   const RingSpectra spectra = transform_rings(rings, order);
-  Expansion result{order, {}, analyse_constant(size, rings.pairs, order)};
-  result.columns.resize(static_cast<size_t>(order) + 1);
+  Expansion result{order, {}, analyse_constant(latlong.size, rings.pairs, columns.front())};
+  result.columns.resize(columns.size());
   for_rows(order + 1, [&](int m) {
-    result.columns[static_cast<size_t>(m)] = analyse_column(rings.pairs, spectra, m, order);
+    const auto at = static_cast<size_t>(m);
+    result.columns[at] = analyse_column(columns[at], rings.pairs, spectra);
   });
   return result;
 }

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "color_planes.h"
+#include "hot_texels.h"
+#include "legendre.h"
 
 namespace kiln {
 
-/// a_lm of three colours.
-struct ColorCoefficient {
-  std::array<double, 3> re{}, im{};
-};
+/// a_lm of three colours: re and im of red, of green, of blue.
+using ColorCoefficient = std::array<double, 6>;
 
 /// The expansion of point masses at the texel centres of a lat-long image, m >= 0; a_l-m is the
 /// conjugate.
@@ -23,8 +23,10 @@ struct Expansion {
 
 /// a_lm = sum over texels of radiance times conj(Y_lm) times solid angle, which is exact for the
 /// point masses whatever the order.
-/// @param radiance  [height][width * 3] colours side by side
+/// @param limit    texels with more power are left out, colour by colour
+/// @param columns  of all m up to the order
 /// @valid order < width, order < 1900
-Expansion analyse(Size size, const std::vector<std::vector<double>>& radiance, int order);
+Expansion analyse(const ColorPlanes& latlong, const PowerLimit& limit,
+                  const std::vector<LegendreColumn>& columns);
 
 }  // namespace kiln

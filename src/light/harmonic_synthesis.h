@@ -9,7 +9,9 @@ namespace kiln {
 
 /// The convolution of an expansion with a kernel, on a grid fine enough for 8 x 8 interpolation:
 /// three colours, and as the fourth value the same convolution of the constant 1 as point masses.
+/// @param columns  those of the expansion
 /// @valid kernel.order() <= expansion.order
-SphereField convolve(const Expansion& expansion, const ZonalKernel& kernel);
+SphereField convolve(const Expansion& expansion, const std::vector<LegendreColumn>& columns,
+                     const ZonalKernel& kernel);
 
 }  // namespace kiln

@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "legendre.h"
 
+#include "kiln/parallel/rows.h"
+
 namespace kiln {
+namespace {
+
+constexpr int lanes = lane_count<WideDouble>;
+
+WideDouble power(WideDouble base, int exponent) {
+  WideDouble result(1.0);
+  for (; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) result *= base;
+    base *= base;
+  }
+  return result;
+}
+
+}  // namespace
 
 RingPairs::RingPairs(int rings_in) : rings(rings_in), count((rings_in + 1) / 2) {
-  constexpr int lanes = lane_count<WideDouble>;
-  blocks = (count + lanes - 1) / lanes;
-  sine.assign(static_cast<size_t>(blocks * lanes), 1.0);
-  cosine.assign(static_cast<size_t>(blocks * lanes), 0.0);
-  for (int i = 0; i < count; ++i) {
-    const double theta = pi * (i + 0.5) / rings;
-    sine[static_cast<size_t>(i)] = std::sin(theta);
-    cosine[static_cast<size_t>(i)] = has_south(i) ? std::cos(theta) : 0.0;
+  for (int first = 0; first < count; first += lanes) {
+    double sines[lanes], cosines[lanes];
+    for (int i = 0; i < lanes; ++i) {
+      const int ring = first + i;
+      const bool on_equator = ring >= count || !has_south(ring);
+      const double theta = pi * (ring + 0.5) / rings;
+      sines[i] = on_equator ? 1.0 : std::sin(theta);
+      cosines[i] = on_equator ? 0.0 : std::cos(theta);
+    }
+    sine.push_back(load_lanes<WideDouble>(sines));
+    cosine.push_back(load_lanes<WideDouble>(cosines));
   }
 }
 
@@ -31,20 +50,28 @@ LegendreColumn::LegendreColumn(int m_in, int order_in) : m(m_in), order(order_in
   }
 }
 
-WideDouble LegendreColumn::seed(const RingPairs& rings, int block) const {
-  constexpr int lanes = lane_count<WideDouble>;
-  double values[lanes];
-  for (int i = 0; i < lanes; ++i) {
-    values[i] = seed_factor * std::pow(rings.sine[static_cast<size_t>(block * lanes + i)], m);
-  }
-  return load_lanes<WideDouble>(values);
+WideDouble LegendreColumn::seed(WideDouble sine) const {
+  return WideDouble(seed_factor) * power(sine, m);
+}
+
+bool LegendreColumn::vanishes_at(const RingPairs& rings, int block, size_t bands) const {
+  // Sines grow toward the equator: the last lane has the greatest.
+  const double sine = rings.sine[static_cast<size_t>(block)].get(lanes - 1);
+  return sine * static_cast<double>(bands) < m - 6 * std::cbrt(static_cast<double>(m)) - 2;
 }
 
 int LegendreColumn::first_block(const RingPairs& rings) const {
-  const double smallest = (m - 6 * std::cbrt(static_cast<double>(m)) - 2) / std::max(order, 1);
-  int pair = 0;
-  while (pair < rings.count && rings.sine[static_cast<size_t>(pair)] < smallest) ++pair;
-  return pair / lane_count<WideDouble>;
+  int block = 0;
+  while (block < rings.blocks() - 1 && vanishes_at(rings, block, static_cast<size_t>(order) + 1)) {
+    ++block;
+  }
+  return block;
+}
+
+std::vector<LegendreColumn> legendre_columns(int order) {
+  std::vector<LegendreColumn> columns(static_cast<size_t>(order) + 1, LegendreColumn(0, 0));
+  for_rows(order + 1, [&](int m) { columns[static_cast<size_t>(m)] = LegendreColumn(m, order); });
+  return columns;
 }
 
 }  // namespace kiln

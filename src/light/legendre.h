@@ -18,11 +18,10 @@ struct RingPairs {
   explicit RingPairs(int rings);
 
   int rings = 0;
-  int count = 0;                     ///< pairs
-  int blocks = 0;                    ///< wide numbers that hold them
-  std::vector<double> sine, cosine;  ///< [blocks * lanes] of the northern ring's polar angle
+  int count = 0;                         ///< pairs
+  std::vector<WideDouble> sine, cosine;  ///< [blocks] of the northern ring's polar angle
 
-  int padded() const { return static_cast<int>(sine.size()); }
+  int blocks() const { return static_cast<int>(sine.size()); }
   bool has_south(int pair) const { return rings - 1 - pair != pair; }
 };
 
@@ -38,10 +37,23 @@ struct LegendreColumn {
   double seed_factor;
   std::vector<double> scale, back;  ///< [order + 1 - m]; the first is unused
 
-  WideDouble seed(const RingPairs& rings, int block) const;
+  /// P_m of a block of rings.
+  WideDouble seed(WideDouble sine) const;
 
-  /// Below this block every P_lm is too small to matter (m exceeds order sin(theta) by far).
+  /// P_l from P_l-1 and P_l-2, with i = l - m.
+  WideDouble next(size_t i, WideDouble cosine, WideDouble last, WideDouble before) const {
+    return fma(WideDouble(scale[i]) * cosine, last, -(WideDouble(back[i]) * before));
+  }
+
+  /// Whether every P_lm with l below `bands` is too small to matter on a block of rings: m exceeds
+  /// bands sin(theta) by far.
+  bool vanishes_at(const RingPairs& rings, int block, size_t bands) const;
+
+  /// The first block where not all of them vanish.
   int first_block(const RingPairs& rings) const;
 };
+
+/// The columns of every m from 0 to `order`.
+std::vector<LegendreColumn> legendre_columns(int order);
 
 }  // namespace kiln

@@ -1,160 +1,80 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "prefilter.h"
+#include "kiln/light/prefilter.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 
+#include "finer.h"
 #include "harmonic_synthesis.h"
-#include "kiln/image/projection.h"
+#include "kiln/core/error.h"
 #include "kiln/parallel/rows.h"
+#include "lobe.h"
 
 namespace kiln {
 namespace {
 
-// Energy that the cut of the expansion may neglect (as a root), and how far the error of a single
-// texel may then reach, in units of the mean over the lobe's width.
-constexpr double cut_off = 1e-4;
+// Energy that the cut of the sharpest lobe's expansion may neglect, as a root: the sharper, the
+// less of a light is left in the expansion at all. Wider lobes spread what is neglected over more
+// of the sphere, so they may neglect more.
+constexpr double widest_cut_off = 3e-4;
+double sharpest_cut_off(double alpha) { return std::clamp(1e-6 / alpha, 2e-5, 5e-5); }
+// Share of the power above which a texel is left out of the expansion, in units of alpha^2 of the
+// sharpest lobe: as much as makes that lobe's peak eight times the mean; and never more than this.
 constexpr double hot_threshold = 2;
+constexpr double hottest_share = 0.01;
 // Where sin(theta)^m would underflow to no good, see LegendreColumn.
 constexpr int highest_order = 1800;
 
-/// Texels taken out of the expansion, and added exactly: directions and radiance times solid angle.
-/// Padded to whole wide numbers by texels without light.
-struct HotTexels {
-  std::vector<float> x, y, z;
-  std::array<std::vector<float>, 3> power;
-
-  void add(const Vec3<double>& direction, const Vec3<double>& light) {
-    x.push_back(static_cast<float>(direction.x));
-    y.push_back(static_cast<float>(direction.y));
-    z.push_back(static_cast<float>(direction.z));
-    power[0].push_back(static_cast<float>(light.x));
-    power[1].push_back(static_cast<float>(light.y));
-    power[2].push_back(static_cast<float>(light.z));
+/// What the expansion leaves out. A texel whose share of a colour's power exceeds the limit would,
+/// through the cut of the expansion, ring visibly around itself.
+PointMasses masses_of(Size size, const std::vector<HotTexel>& texels) {
+  PointMasses masses;
+  for (const HotTexel& texel : texels) {
+    const Vec2<double> uv{(texel.x + 0.5) / size.width, (texel.y + 0.5) / size.height};
+    masses.add(latlong_to_direction(uv), {texel.power[0], texel.power[1], texel.power[2], 0});
   }
-  void pad() {
-    while (x.size() % static_cast<size_t>(lane_count<WideFloat>) != 0) add({0, 1, 0}, {0, 0, 0});
-  }
-};
-
-using Rows = std::vector<std::vector<double>>;  // [height][3 * width]
-
-Rows rows_of(const Layers& latlong) {
-  const ColorPlanes colors = color_planes(latlong);
-  Rows rows(static_cast<size_t>(colors.size.height));
-  for_rows(colors.size.height, [&](int y) {
-    auto& row = rows[static_cast<size_t>(y)];
-    for (int x = 0; x < colors.size.width; ++x) {
-      const Vec3<double> value = colors.at(x, y);
-      row.insert(row.end(), {value.x, value.y, value.z});
-    }
-  });
-  return rows;
+  masses.pad();
+  return masses;
 }
 
-/// Sum of |radiance| times solid angle, by color.
-std::array<double, 3> total_power(Size size, const Rows& rows) {
-  const auto sums = sum_rows(size.height, 3, [&](int y, std::vector<double>& share) {
-    const auto& row = rows[static_cast<size_t>(y)];
-    for (size_t i = 0; i < row.size(); ++i) share[i % 3] += std::abs(row[i]);
-    for (double& sum : share) sum *= latlong_texel_solid_angle(size, y);
-  });
-  return {sums[0], sums[1], sums[2]};
-}
-
-// A texel whose share of any colour's power exceeds the threshold would, through the cut of the
-// expansion, ring visibly around itself. At most 3 / threshold texels do.
-HotTexels take_out_hot(Size size, double threshold, Rows& rows) {
-  const std::array<double, 3> total = total_power(size, rows);
-  HotTexels hot;
-  for (int y = 0; y < size.height; ++y) {
-    const double solid_angle = latlong_texel_solid_angle(size, y);
-    auto& row = rows[static_cast<size_t>(y)];
-    for (int x = 0; x < size.width; ++x) {
-      double* texel = row.data() + 3 * x;
-      bool is_hot = false;
-      for (size_t c = 0; c < 3; ++c) {
-        is_hot = is_hot || std::abs(texel[c]) * solid_angle > threshold * total[c];
-      }
-      if (!is_hot) continue;
-      const Vec2<double> uv{(x + 0.5) / size.width, (y + 0.5) / size.height};
-      hot.add(latlong_to_direction(uv), Vec3<double>{texel[0], texel[1], texel[2]} * solid_angle);
-      std::fill_n(texel, 3, 0.0);
-    }
-  }
-  hot.pad();
-  return hot;
-}
-
-Vec3<float> sum_hot(const HotTexels& hot, const Vec3<float>& d, float alpha2) {
+bool any_negative(std::span<const float> values) {
   constexpr size_t lanes = lane_count<WideFloat>;
-  std::array<WideFloat, 3> sums{WideFloat(0.0f), WideFloat(0.0f), WideFloat(0.0f)};
-  for (size_t i = 0; i < hot.x.size(); i += lanes) {
-    const WideFloat x = WideFloat(d.x) - load_lanes<WideFloat>(hot.x.data() + i);
-    const WideFloat y = WideFloat(d.y) - load_lanes<WideFloat>(hot.y.data() + i);
-    const WideFloat z = WideFloat(d.z) - load_lanes<WideFloat>(hot.z.data() + i);
-    const WideFloat s = WideFloat(0.25f) * fma(x, x, fma(y, y, z * z));
-    const WideFloat lobe = ggx_lobe(s, WideFloat(alpha2));
-    for (size_t c = 0; c < 3; ++c) {
-      sums[c] = fma(lobe, load_lanes<WideFloat>(hot.power[c].data() + i), sums[c]);
-    }
+  WideFloat least(0.0f);
+  size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    least = min(least, load_lanes<WideFloat>(values.data() + i));
   }
-  return {xsimd::hadd(sums[0]), xsimd::hadd(sums[1]), xsimd::hadd(sums[2])};
+  bool found = any(least < WideFloat(0.0f));
+  for (; i < values.size(); ++i) found |= values[i] < 0;
+  return found;
 }
 
-Vec3<double> cube_texel_direction(int size, int index) {
-  const int face = index / (size * size), y = index / size % size, x = index % size;
-  const Vec2<double> uv{(x + 0.5) / size, (y + 0.5) / size};
-  return normalize(cube_to_direction(static_cast<CubeFace>(face), uv));
-}
-
-/// The expansion's share, the hot texels' share, over what the constant 1 gives.
-CubeTexels filter_level(const Expansion& expansion, const HotTexels& hot, const ZonalKernel& kernel,
-                        int size) {
-  const SphereField field = convolve(expansion, kernel);
-  CubeTexels texels(static_cast<size_t>(6 * size * size));
-  const auto alpha2 = static_cast<float>(kernel.alpha * kernel.alpha);
-  const auto scale = static_cast<float>(1 / kernel.integral);
-  for_rows(6 * size, [&](int row) {
-    for (int i = row * size; i < (row + 1) * size; ++i) {
-      const Vec3<double> d = cube_texel_direction(size, i);
-      const std::array<float, 4> smooth = field.at(d);
-      const Vec3<float> near{static_cast<float>(d.x), static_cast<float>(d.y),
-                             static_cast<float>(d.z)};
-      const Vec3<float> sum =
-          Vec3<float>{smooth[0], smooth[1], smooth[2]} + sum_hot(hot, near, alpha2) * scale;
-      texels[static_cast<size_t>(i)] = {sum.x / smooth[3], sum.y / smooth[3], sum.z / smooth[3]};
+std::array<bool, 3> never_negative(const ColorPlanes& latlong) {
+  const auto found = sum_rows(latlong.size.height, 3, [&](int y, std::vector<double>& negative) {
+    for (size_t c = 0; c < 3; ++c) {
+      negative[c] = any_negative(latlong.planes[c]->texels_of_row(y)) ? 1 : 0;
     }
   });
-  return texels;
+  return {found[0] == 0, found[1] == 0, found[2] == 0};
 }
 
-/// Zero where a source without negative radiance came out below zero by rounding and the cut.
-void clip_undershoot(const Rows& rows, CubeTexels& texels) {
-  std::array<double, 3> lowest{};
-  for (const auto& row : rows) {
-    for (size_t i = 0; i < row.size(); ++i) lowest[i % 3] = std::min(lowest[i % 3], row[i]);
-  }
-  const Vec3<bool> never{lowest[0] >= 0, lowest[1] >= 0, lowest[2] >= 0};
-  for (Vec3<float>& texel : texels) {
-    if (never.x) texel.x = std::max(texel.x, 0.0f);
-    if (never.y) texel.y = std::max(texel.y, 0.0f);
-    if (never.z) texel.z = std::max(texel.z, 0.0f);
+void check_lobes(const std::vector<Lobe>& lobes) {
+  for (const Lobe& lobe : lobes) {
+    if (lobe.alpha >= Prefilter::least_alpha && lobe.alpha <= 1) continue;
+    throw Error(Fault::Usage,
+                fmt::format("a lobe of alpha {:.3g} (roughness {:.3g}) is asked for; environments "
+                            "are filtered with {} (roughness {:.3g}) to 1",
+                            lobe.alpha, std::sqrt(lobe.alpha), Prefilter::least_alpha,
+                            std::sqrt(Prefilter::least_alpha)));
   }
 }
 
-int times_finer(int found, int needed) {
-  const auto times = static_cast<unsigned>((needed + found - 1) / found);
-  return static_cast<int>(std::bit_ceil(std::max(times, 1u)));
-}
-
-std::vector<ZonalKernel> expand_lobes(const std::vector<FilteredLevel>& levels) {
-  std::vector<ZonalKernel> kernels;
-  kernels.reserve(levels.size());
-  for (const FilteredLevel& level : levels) {
-    kernels.push_back(expand_ggx_lobe(level.alpha, cut_off, highest_order));
-  }
-  return kernels;
+double sharpest_of(const std::vector<Lobe>& lobes) {
+  double alpha = 1;
+  for (const Lobe& lobe : lobes) alpha = std::min(alpha, lobe.alpha);
+  return alpha;
 }
 
 int highest_of(const std::vector<ZonalKernel>& kernels) {
@@ -163,42 +83,164 @@ int highest_of(const std::vector<ZonalKernel>& kernels) {
   return order;
 }
 
-double sharpest_of(const std::vector<FilteredLevel>& levels) {
-  double alpha = 1;
-  for (const FilteredLevel& level : levels) alpha = std::min(alpha, level.alpha);
-  return alpha;
+}  // namespace
+
+Refinement refinement_for(Size source, int order) {
+  const auto times = [](int found, int needed) {
+    return static_cast<int>(
+        std::bit_ceil(static_cast<unsigned>(std::max(1, (needed + found - 1) / found))));
+  };
+  return {times(source.width, order + 1), times(source.height, (order + 1) / 2)};
 }
 
-Refinement refinement_for(Size source, const std::vector<ZonalKernel>& kernels, double sharpest) {
-  // Bands that the lobe itself needs, without the edge that all lobes have at the horizon.
-  const int order = highest_of(kernels);
-  const int bands = std::min(order, static_cast<int>(6 / sharpest)) + 1;
-  return {times_finer(source.width, std::max(2 * bands, order + 1)),
-          times_finer(source.height, bands)};
+struct Prefilter::Expanded {
+  Layers finer_source;  ///< empty where the source itself is fine enough
+  ColorPlanes source;
+  std::vector<Lobe> lobes;
+  std::vector<ZonalKernel> kernels;
+  std::vector<LegendreColumn> columns;
+  PointMasses hot;
+  Expansion expansion;
+  std::array<bool, 3> never_negative;
+
+  const ZonalKernel& kernel_of(const Lobe& lobe) const {
+    const auto found = std::find(lobes.begin(), lobes.end(), lobe);
+    if (found == lobes.end()) throw Error(Fault::Internal, "a lobe was not announced");
+    return kernels[static_cast<size_t>(found - lobes.begin())];
+  }
+};
+
+Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
+    : expanded_(std::make_unique<Expanded>()) {
+  check_lobes(lobes);
+  Expanded& made = *expanded_;
+  made.lobes = lobes;
+  made.kernels.resize(lobes.size());
+  const double sharpest = sharpest_of(lobes);
+  // Bands of the lobe itself; beyond these comes the edge that all lobes have at the horizon, for
+  // which no source is made finer.
+  const int bands = static_cast<int>(std::ceil(8 / sharpest));
+  const int most = std::min(highest_order, std::max(bands, latlong.size.width - 1));
+  for_rows(static_cast<int>(lobes.size()), [&](int i) {
+    const Lobe& lobe = lobes[static_cast<size_t>(i)];
+    made.kernels[static_cast<size_t>(i)] = expand_lobe(
+        lobe,
+        std::min(sharpest_cut_off(sharpest) * std::sqrt(lobe.alpha / sharpest), widest_cut_off),
+        most);
+  });
+  const int order = highest_of(made.kernels);
+  made.source = color_planes(latlong);
+  const Refinement times = refinement_for(latlong.size, order);
+  if (times.across * times.down > 1) {
+    made.finer_source = finer(latlong, times);
+    made.source = color_planes(made.finer_source);
+  }
+  made.columns = legendre_columns(order);
+  const PowerLimit limit =
+      share_of_power(made.source, std::min(hot_threshold * square(sharpest), hottest_share));
+  made.hot = masses_of(made.source.size, hot_texels(made.source, limit));
+  made.expansion = analyse(made.source, limit, made.columns);
+  made.never_negative = never_negative(made.source);
+}
+
+Size Prefilter::source_size() const { return expanded_->source.size; }
+
+Prefilter::~Prefilter() = default;
+Prefilter::Prefilter(Prefilter&&) noexcept = default;
+
+std::vector<Layers> Prefilter::filter(const Lobe& lobe, const SphereGrid& grid) const {
+  const ZonalKernel& kernel = expanded_->kernel_of(lobe);
+  const SphereField field = convolve(expanded_->expansion, expanded_->columns, kernel);
+  const auto scale = static_cast<float>(1 / kernel.integral);
+  const Size extent = grid.image_size();
+  std::vector<Layers> images;
+  for (int i = 0; i < grid.images(); ++i) {
+    images.push_back(make_layers(extent, {"R", "G", "B"}));
+  }
+  for_rows(grid.images() * extent.height, [&](int row) {
+    const int image = row / extent.height, y = row % extent.height;
+    std::vector<Vec3<double>> directions;
+    row_directions(grid, image, y, directions);
+    std::vector<MassSums> smooth(directions.size()), hot(directions.size(), MassSums{});
+    field.evaluate(directions, smooth);
+    add_masses(lobe, expanded_->hot, directions, hot);
+    for (size_t c = 0; c < 3; ++c) {
+      // Zero where a source without negative radiance came out below zero by rounding and the cut.
+      const float least = expanded_->never_negative[c] ? 0.0f : -INFINITY;
+      float* to = images[static_cast<size_t>(image)].layers[c].plane.row(y);
+      for (size_t x = 0; x < directions.size(); ++x) {
+        to[x] = std::max(fma(hot[x][c], scale, smooth[x][c]) / smooth[x][3], least);
+      }
+    }
+  });
+  return images;
+}
+
+namespace {
+
+/// Sines and cosines of the azimuths of texel centres.
+struct Azimuths {
+  std::vector<double> sine, cosine;
+
+  explicit Azimuths(int width) {
+    for (int x = 0; x < width; ++x) {
+      const double azimuth_rad = 2 * pi * ((x + 0.5) / width - 0.5);
+      sine.push_back(std::sin(azimuth_rad));
+      cosine.push_back(std::cos(azimuth_rad));
+    }
+  }
+};
+
+// Texels [begin, end) of a row, R G B and the solid angle.
+void take_row(const ColorPlanes& source, const Azimuths& azimuths, int y, int begin, int end,
+              PointMasses& masses) {
+  const double theta = pi * (y + 0.5) / source.size.height;
+  const double sine = std::sin(theta), cosine = std::cos(theta);
+  const double solid_angle = latlong_texel_solid_angle(source.size, y);
+  masses.clear();
+  for (int x = begin; x < end; ++x) {
+    const auto at = static_cast<size_t>(x);
+    const Vec3<double> power = source.at(x, y) * solid_angle;
+    masses.add({-azimuths.sine[at] * sine, cosine, azimuths.cosine[at] * sine},
+               {power.x, power.y, power.z, solid_angle});
+  }
+  masses.pad();
 }
 
 }  // namespace
 
-Refinement refinement_for(Size source, const std::vector<FilteredLevel>& levels) {
-  return refinement_for(source, expand_lobes(levels), sharpest_of(levels));
-}
-
-std::vector<CubeTexels> prefilter(const Layers& latlong, const std::vector<FilteredLevel>& levels) {
-  const std::vector<ZonalKernel> kernels = expand_lobes(levels);
-  const double sharpest = sharpest_of(levels);
-  const Refinement times = refinement_for(latlong.size, kernels, sharpest);
-  const Layers finer_source = times.across * times.down > 1 ? finer(latlong, times) : Layers{};
-  const Layers& source = finer_source.layers.empty() ? latlong : finer_source;
-
-  Rows rows = rows_of(source);
-  const HotTexels hot = take_out_hot(source.size, hot_threshold * sharpest * sharpest, rows);
-  const Expansion expansion = analyse(source.size, rows, highest_of(kernels));
-  std::vector<CubeTexels> result;
-  for (size_t i = 0; i < levels.size(); ++i) {
-    result.push_back(filter_level(expansion, hot, kernels[i], levels[i].size));
-    clip_undershoot(rows, result.back());
+std::vector<std::vector<Vec3<double>>> Prefilter::brute_force(
+    const std::vector<LobeProbe>& probes) const {
+  constexpr int texels_at_once = 1024;  // so few that their sum in float keeps its digits
+  const ColorPlanes& source = expanded_->source;
+  const Azimuths azimuths(source.size.width);
+  size_t count = 0;
+  for (const LobeProbe& probe : probes) count += probe.directions.size();
+  const auto add_row = [&](int y, std::vector<double>& row) {
+    PointMasses masses;
+    for (int begin = 0; begin < source.size.width; begin += texels_at_once) {
+      const int end = std::min(begin + texels_at_once, source.size.width);
+      take_row(source, azimuths, y, begin, end, masses);
+      size_t at = 0;
+      for (const LobeProbe& probe : probes) {
+        std::vector<MassSums> found(probe.directions.size(), MassSums{});
+        add_masses(probe.lobe, masses, probe.directions, found);
+        for (const MassSums& sums : found) {
+          for (const float sum : sums) row[at++] += sum;
+        }
+      }
+    }
+  };
+  const auto sums = sum_rows(source.size.height, static_cast<int>(4 * count), add_row);
+  std::vector<std::vector<Vec3<double>>> filtered(probes.size());
+  size_t at = 0;
+  for (size_t p = 0; p < probes.size(); ++p) {
+    for (size_t i = 0; i < probes[p].directions.size(); ++i, at += 4) {
+      filtered[p].push_back(Vec3<double>{sums[at], sums[at + 1], sums[at + 2]} *
+                            (1 / sums[at + 3]));
+    }
   }
-  return result;
+  return filtered;
 }
 
 }  // namespace kiln

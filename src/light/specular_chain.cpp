@@ -2,8 +2,9 @@
 #include "kiln/light/specular_chain.h"
 
 #include "kiln/core/error.h"
+#include "kiln/light/chain_plan.h"
+#include "kiln/light/prefilter.h"
 #include "kiln/parallel/rows.h"
-#include "prefilter.h"
 
 namespace kiln {
 namespace {
@@ -11,15 +12,10 @@ namespace {
 // More would not fit 32-bit indices.
 constexpr int largest_face = 4096;
 
-std::vector<int> sizes_from(int first, int smallest) {
-  if (first < 1 || first > largest_face) {
-    throw Error(Fault::Usage, "faces of " + std::to_string(first) +
-                                  " texels asked for, expected 1 to " +
-                                  std::to_string(largest_face));
-  }
-  std::vector<int> sizes{first};
-  while (sizes.back() / 2 >= smallest) sizes.push_back(sizes.back() / 2);
-  return sizes;
+void check_size(int size) {
+  if (size >= 1 && size <= largest_face) return;
+  throw Error(Fault::Usage, "faces of " + std::to_string(size) +
+                                " texels asked for, expected 1 to " + std::to_string(largest_face));
 }
 
 /// The texel that lies across the border of a face at (x, y), one of the two just outside.
@@ -45,33 +41,30 @@ CubeTexel across_border(int size, int face, int x, int y) {
 
 }  // namespace
 
-double roughness_at(RoughnessCurve curve, double l) {
-  return curve == RoughnessCurve::Linear ? l : 1 - std::sqrt(1 - l);
-}
-
 SpecularChain::SpecularChain(const Layers& latlong, const ChainOptions& options)
-    : curve_(options.curve),
-      turn_(options.rotate_deg),
-      sizes_(sizes_from(options.size, smallest_face)) {
+    : turn_(options.rotate_deg) {
+  check_size(options.size);
+  const ChainPlan plan = plan_chain("filament", options.size);
+  sizes_ = plan.sizes;
+  roughness_ = plan.roughness;
   long long numbers = 0;
-  std::vector<FilteredLevel> filtered;
+  std::vector<Lobe> lobes;
   for (int level = 0; level < levels(); ++level) {
     const int stride = size(level) + 2;
     edges_.push_back(static_cast<float>(size(level)));
     strides_.push_back(stride);
     firsts_.push_back(static_cast<std::int32_t>(numbers));
     numbers += 24LL * stride * stride;
-    const double alpha = roughness(level) * roughness(level);
-    if (level > 0) filtered.push_back({size(level), std::max(alpha, 4e-3)});
+    if (level > 0) lobes.push_back({.alpha = square(roughness(level))});
   }
   texels_.resize(static_cast<size_t>(numbers));
-  store_level(0, average_over_texels(latlong, size(0)));
-  const auto rougher = filtered.empty() ? std::vector<CubeTexels>{} : prefilter(latlong, filtered);
-  for (size_t i = 0; i < rougher.size(); ++i) store_level(static_cast<int>(i) + 1, rougher[i]);
-}
-
-double SpecularChain::roughness(int level) const {
-  return levels() == 1 ? 0.0 : roughness_at(curve_, static_cast<double>(level) / (levels() - 1));
+  store_level(0, average_over_texels(latlong, {.size = size(0)}));
+  if (lobes.empty()) return;
+  const Prefilter prefilter(latlong, lobes);
+  for (int level = 1; level < levels(); ++level) {
+    const Lobe& lobe = lobes[static_cast<size_t>(level) - 1];
+    store_level(level, prefilter.filter(lobe, {.size = size(level)}));
+  }
 }
 
 size_t SpecularChain::texel_index(int level, int face, int x, int y) const {
@@ -93,15 +86,13 @@ Layers SpecularChain::face(int level, CubeFace face) const {
   return image;
 }
 
-void SpecularChain::store_level(int level, std::span<const Vec3<float>> texels) {
+void SpecularChain::store_level(int level, const std::vector<Layers>& faces) {
   const int edge = size(level);
   for_rows(6 * edge, [&](int row) {
+    const Layers& face = faces[static_cast<size_t>(row / edge)];
     for (int x = 0; x < edge; ++x) {
       float* texel = texels_.data() + texel_index(level, row / edge, x, row % edge);
-      const Vec3<float>& value = texels[static_cast<size_t>(row * edge + x)];
-      texel[0] = value.x;
-      texel[1] = value.y;
-      texel[2] = value.z;
+      for (size_t c = 0; c < 3; ++c) texel[c] = face.layers[c].plane.at(x, row % edge);
     }
   });
   fill_borders(level);

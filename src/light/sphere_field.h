@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "kiln/math/vec.h"
+#include "kiln/math/wide.h"
 
 namespace kiln {
 
@@ -23,8 +25,9 @@ class SphereField {
   /// Copies what lies across; to be called when all texels are written.
   void fill_border();
 
-  /// The four values at the unit direction d, by 8 x 8 Lagrange interpolation.
-  std::array<float, 4> at(const Vec3<double>& d) const;
+  /// The values at unit directions, by 8 x 8 Lagrange interpolation.
+  void evaluate(std::span<const Vec3<double>> directions,
+                std::span<std::array<float, 4>> values) const;
 
  private:
   size_t index_of(int x, int y) const {
@@ -32,6 +35,7 @@ class SphereField {
             static_cast<size_t>(x + border)) *
            4;
   }
+  std::array<float, 4> interpolated(size_t corner, const float* across, const float* down) const;
 
   int height_;
   std::vector<float> values_;

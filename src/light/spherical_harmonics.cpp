@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/light/spherical_harmonics.h"
 
+#include <span>
+
 #include "color_planes.h"
 #include "kiln/core/error.h"
 #include "kiln/image/projection.h"
+#include "kiln/math/wide.h"
 #include "kiln/parallel/rows.h"
 
 namespace kiln {
@@ -44,6 +47,59 @@ void fill_harmonics(int order, const Vec3<double>& d, std::vector<double>& value
   }
 }
 
+// cos(k phi) and sin(k phi) at texel centres, for each k up to the order.
+struct Waves {
+  std::vector<std::vector<double>> cosine, sine;  ///< [order + 1][width padded]
+
+  Waves(int width, int order) {
+    for (int k = 0; k <= order; ++k) {
+      cosine.emplace_back();
+      sine.emplace_back();
+      for (int x = 0; x < width; ++x) {
+        const double angle_rad = 2 * pi * k * ((x + 0.5) / width - 0.5);
+        cosine.back().push_back(std::cos(angle_rad));
+        sine.back().push_back(std::sin(angle_rad));
+      }
+    }
+  }
+};
+
+double dot_row(std::span<const float> texels, const std::vector<double>& wave) {
+  constexpr size_t lanes = lane_count<WideDouble>;
+  WideDouble sum(0.0);
+  size_t x = 0;
+  for (; x + lanes <= texels.size(); x += lanes) {
+    double values[lanes];
+    for (size_t i = 0; i < lanes; ++i) values[i] = texels[x + i];
+    sum = fma(load_lanes<WideDouble>(values), load_lanes<WideDouble>(wave.data() + x), sum);
+  }
+  double rest = 0;
+  for (; x < texels.size(); ++x) rest += texels[x] * wave[x];
+  return xsimd::hadd(sum) + rest;
+}
+
+/// A row as 2 n + 1 masses at even azimuths, which have the same Fourier coefficients up to n, and
+/// so the same integral against every harmonic up to that order.
+std::vector<Vec3<double>> masses_of_row(const ColorPlanes& latlong, int y, const Waves& waves) {
+  const size_t order = waves.cosine.size() - 1, count = 2 * order + 1;
+  std::vector<Vec3<double>> masses(count);
+  for (size_t k = 0; k <= order; ++k) {
+    std::array<double, 3> even, odd;
+    for (size_t c = 0; c < 3; ++c) {
+      even[c] = dot_row(latlong.planes[c]->texels_of_row(y), waves.cosine[k]);
+      odd[c] = dot_row(latlong.planes[c]->texels_of_row(y), waves.sine[k]);
+    }
+    for (size_t p = 0; p < count; ++p) {
+      const double angle_rad = 2 * pi * static_cast<double>(k * p) / static_cast<double>(count);
+      const double twice = (k == 0 ? 1.0 : 2.0) / static_cast<double>(count);
+      const double cosine = twice * std::cos(angle_rad), sine = twice * std::sin(angle_rad);
+      masses[p] += Vec3<double>{even[0], even[1], even[2]} * cosine +
+                   Vec3<double>{odd[0], odd[1], odd[2]} * sine;
+    }
+  }
+  return masses;
+}
+
 }  // namespace
 
 std::vector<double> harmonics_at(int order, const Vec3<double>& d) {
@@ -52,31 +108,56 @@ std::vector<double> harmonics_at(int order, const Vec3<double>& d) {
   return values;
 }
 
-SphericalHarmonics project_sh(const Layers& latlong, int order) {
+SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes) {
   if (order < 0) throw Error(Fault::Usage, "spherical harmonics of order " + std::to_string(order));
   const ColorPlanes colors = color_planes(latlong);
   const Size size = colors.size;
+  const Waves waves(size.width, order);
   const int count = (order + 1) * (order + 1);
   const auto sums = sum_rows(size.height, 3 * count, [&](int y, std::vector<double>& share) {
     std::vector<double> values(static_cast<size_t>(count));
-    for (int x = 0; x < size.width; ++x) {
-      const Vec3<double> radiance = colors.at(x, y);
-      const Vec2<double> uv{(x + 0.5) / size.width, (y + 0.5) / size.height};
-      fill_harmonics(order, latlong_to_direction(uv), values);
+    const std::vector<Vec3<double>> masses = masses_of_row(colors, y, waves);
+    const double solid_angle = latlong_texel_solid_angle(size, y);
+    for (size_t p = 0; p < masses.size(); ++p) {
+      const Vec3<double> mass = masses[p] * solid_angle;
+      const double u = 0.5 + static_cast<double>(p) / static_cast<double>(masses.size());
+      const Vec3<double> d = latlong_to_direction(Vec2<double>{u, (y + 0.5) / size.height});
+      fill_harmonics(order, axes.to_engine(d), values);
       for (size_t i = 0; i < values.size(); ++i) {
-        share[3 * i] += values[i] * radiance.x;
-        share[3 * i + 1] += values[i] * radiance.y;
-        share[3 * i + 2] += values[i] * radiance.z;
+        share[3 * i] += values[i] * mass.x;
+        share[3 * i + 1] += values[i] * mass.y;
+        share[3 * i + 2] += values[i] * mass.z;
       }
     }
-    const double solid_angle = latlong_texel_solid_angle(size, y);
-    for (double& sum : share) sum *= solid_angle;
   });
   SphericalHarmonics result{order, std::vector<Vec3<double>>(static_cast<size_t>(count))};
   for (size_t i = 0; i < result.coefficients.size(); ++i) {
     result.coefficients[i] = {sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]};
   }
   return result;
+}
+
+SphericalHarmonics windowed(const SphericalHarmonics& sum, ShWindow window) {
+  SphericalHarmonics result = sum;
+  for (int l = 1; l <= sum.order && window != ShWindow::None; ++l) {
+    const double angle_rad = pi * l / (sum.order + 1);
+    const double factor = window == ShWindow::Hann ? 0.5 * (1 + std::cos(angle_rad))
+                                                   : std::sin(angle_rad) / angle_rad;
+    for (int m = -l; m <= l; ++m) {
+      result.coefficients[index_of(l, m)] = sum.coefficients[index_of(l, m)] * factor;
+    }
+  }
+  return result;
+}
+
+std::array<Vec3<double>, 9> scaled_for_shaders(const SphericalHarmonics& sum) {
+  const double first = std::sqrt(3 / (4 * pi)), second = std::sqrt(15 / (4 * pi));
+  const std::array<double, 9> constants = {
+      std::sqrt(1 / (4 * pi)),  first,  first,       first, second, second,
+      std::sqrt(5 / (16 * pi)), second, 0.5 * second};
+  std::array<Vec3<double>, 9> scaled;
+  for (size_t i = 0; i < 9; ++i) scaled[i] = sum.coefficients[i] * constants[i];
+  return scaled;
 }
 
 SphericalHarmonics irradiance_over_pi(const SphericalHarmonics& radiance) {

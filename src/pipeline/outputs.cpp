@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "kiln/io/texture_file.h"
 #include "kiln/pipeline/report.h"
 #include "kiln/store/publish.h"
 
@@ -143,6 +144,48 @@ std::string write_image_of(const Plan& plan, const Task& task, const Artifact& a
                      facts.largest_clamped);
 }
 
+// The type of that name which the format holds.
+PixelType type_held(const WritableTexture& format, const std::string& name) {
+  for (const PixelType held : format.types) {
+    if (pixel_type_name(held) == name) return held;
+  }
+  throw Error(Fault::Internal, fmt::format("{} does not hold {}", format.name, name));
+}
+
+// Babylon.js keeps a polynomial of the normal, without the constant that n.n = 1 makes redundant.
+IrradiancePolynomial polynomial_of(const std::vector<Vec3<double>>& c) {
+  const auto color = [](const Vec3<double>& v) {
+    return IrradiancePolynomial::Color{v.x, v.y, v.z};
+  };
+  IrradiancePolynomial polynomial;
+  polynomial.x = color(c[3]);
+  polynomial.y = color(c[1]);
+  polynomial.z = color(c[2]);
+  polynomial.xx = color(c[0] - c[6] + c[8]);
+  polynomial.yy = color(c[0] - c[6] - c[8]);
+  polynomial.zz = color(c[0] + c[6] * 2.0);
+  polynomial.xy = color(c[4]);
+  polynomial.yz = color(c[5]);
+  polynomial.zx = color(c[7]);
+  return polynomial;
+}
+
+void write_texture_of(const Artifact& artifact, const fs::path& path) {
+  const WritableTexture& format = writable_texture(path);
+  const TextureProduct& product = *artifact.texture;
+  TextureWriteOptions options;
+  options.type = type_held(format, artifact.preferred_type);
+  if (product.zstd) options.supercompression = Supercompression::Zstd;
+  if (product.at_nodes) options.samples = Samples::Nodes;
+  if (format.name == "ktx2") options.color_tag = ColorTag::Linear;
+  if (format.holds_attributes) {
+    options.attributes = artifact.attributes;
+    options.attributes.emplace_back("Software", software());
+  }
+  if (product.irradiance.size() == 9) options.irradiance = polynomial_of(product.irradiance);
+  write_texture(path, product.texture, options);
+}
+
 // Beside a file whose format has no room for them.
 void write_attributes(const fs::path& path, const Artifact& artifact) {
   nlohmann::ordered_json json;
@@ -183,7 +226,7 @@ void check_output(const Task& task) {
                                             "files",
                                             task.out, task.bake));
     }
-    return check_type(task.product, task.output.type, "any.exr");
+    return;
   }
   if (!out.has_filename() || extension.empty()) {
     throw Error(Fault::Usage,
@@ -208,17 +251,29 @@ Written write_outputs(const Plan& plan, const Task& task, const Baked& baked,
     const fs::path path = plan.output / name;
     if (!artifact.text.empty()) {
       publish_text(path, artifact.text);
+    } else if (artifact.texture) {
+      write_texture_of(artifact, path);
     } else {
       const std::string note = write_image_of(plan, task, artifact, path, config);
       if (!note.empty()) written.notes.push_back(note);
     }
     written.outputs.push_back(name);
-    if (artifact.text.empty() && needs_attributes_beside(artifact, path)) {
+    if (artifact.text.empty() && !artifact.texture && needs_attributes_beside(artifact, path)) {
       write_attributes(path.string() + ".json", artifact);
       written.outputs.push_back(name + ".json");
     }
   }
   return written;
+}
+
+Layers coded_as(const Layers& image, const std::string& pixel_type) {
+  if (pixel_type == "rgbe") return coded_as_hdr(image);
+  for (const WritableTexture& format : writable_textures()) {
+    for (const PixelType type : format.types) {
+      if (pixel_type_name(type) == pixel_type) return coded(image, type);
+    }
+  }
+  throw Error(Fault::Internal, "no pixel type is named " + pixel_type);
 }
 
 }  // namespace kiln

@@ -24,4 +24,7 @@ struct Written {
 Written write_outputs(const Plan& plan, const Task& task, const Baked& baked,
                       const ColorConfig& config);
 
+/// What a reader gets of an image stored as a pixel type of textures, or as "rgbe".
+Layers coded_as(const Layers& image, const std::string& pixel_type);
+
 }  // namespace kiln

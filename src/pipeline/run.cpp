@@ -166,6 +166,7 @@ class Runner {
     if (task.needs.material) ingredients.material = &sets_[*task.set].get().svbrdf;
     if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
     if (task.needs.albedo) ingredients.albedo = albedo_.get().get();
+    ingredients.coded = coded_as;
     Baked baked = task.recipe->bake(ingredients);
     for (Artifact& artifact : baked.artifacts) heed_signals(artifact.bands);
     record.notes = baked.notes;

@@ -194,7 +194,7 @@ const BlockFacts& block_named(const std::string& name) {
 std::vector<Key> output_keys(Product product) {
   std::vector<std::string> types = pixel_type_words();
   if (product == Product::Picture) types.resize(4);
-  if (product == Product::Folder) types = {"half", "float"};
+  if (product == Product::Folder) return {};  // a bake of several files says itself what they hold
   std::vector<Key> keys = {
       word("type", std::move(types), "", "numbers of the file, if not the format's usual")};
   if (product != Product::Picture) return keys;

@@ -66,6 +66,7 @@ const std::vector<ThirdParty> third_parties = {
     {"oneapi/", {"parallel"}},   {"yaml-cpp/", {"pipeline"}},
     {"CLI/", {"cli"}},           {"nlohmann/", {"pipeline", "cli", "bake", "light", "table", "io"}},
     {"xsimd/", {"math"}},        {"xxhash.h", {"store"}},
+    {"zstd.h", {"io"}},
 };
 
 /// Files that may catch: where an exception of a third party, or of a task, is turned into ours,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +12,8 @@
 #include "kiln/core/param.h"
 #include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
+#include "kiln/image/texture.h"
+#include "kiln/math/vec.h"
 
 namespace kiln {
 
@@ -43,11 +47,24 @@ struct Needs {
   bool prefiltered = false;  ///< its specular chain and irradiance too
   bool albedo = false;       ///< the directional-albedo table of the model
 };
+/// What a reader gets of an image that is stored as a pixel type of that name.
+using Coded = std::function<Layers(const Layers&, const std::string& pixel_type)>;
+
 struct Ingredients {
   const Svbrdf* material = nullptr;
   const Light* light = nullptr;
   const AlbedoTable* albedo = nullptr;
   SurfaceChoice surface = {};  ///< the models that the maps feed
+  Coded coded = {};            ///< for bakes that state the error of an encoding
+};
+
+/// A texture with levels or faces, in the place of an image.
+struct TextureProduct {
+  Texture texture;
+  bool zstd = false;      ///< supercompressed, where the format can be
+  bool at_nodes = false;  ///< samples lie on the borders
+  /// Irradiance over pi for shaders (scaled_for_shaders), where the format has a place for it.
+  std::vector<Vec3<double>> irradiance;
 };
 
 /// One product: an image or a text. `name` is empty for the bake's single product (its file is the
@@ -56,7 +73,8 @@ struct Artifact {
   std::string name;
   std::string extension;  ///< with dot, forced ("." + json for texts); empty: the task's own
   Layers image;
-  std::string text;  ///< when not empty, this is the product
+  std::optional<TextureProduct> texture;  ///< when there, this is the product
+  std::string text;                       ///< when not empty, this is the product
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
   std::string preferred_type =
       {};         ///< "half": taken where the format holds it and none is asked for

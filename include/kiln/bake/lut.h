@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/bake/named_text.h"
+
 namespace kiln {
 
 /// Parameters of the bake `lut` as a user writes them: table, preset, axes, ...
@@ -30,11 +32,6 @@ std::vector<std::string> lut_axes(const LutWords& words);
 std::string lut_snippet(const LutWords& words, const std::string& language, const std::string& file,
                         bool rgbd);
 
-/// Something with a name, what it is, and facts: "source", "Karis 2013".
-struct NamedText {
-  std::string name, summary;
-  std::vector<std::pair<std::string, std::string>> facts;
-};
 std::vector<NamedText> list_tables();
 std::vector<NamedText> list_lut_axes();
 std::vector<NamedText> list_lut_channels();

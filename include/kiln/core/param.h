@@ -120,6 +120,18 @@ Param<S> word_param(std::string name, Enum S::*member, std::vector<std::string> 
           }};
 }
 
+/// A word out of a list of names, kept as text: "" until it is given.
+template <class S>
+Param<S> choice_param(std::string name, std::string S::*member, std::vector<std::string> choices,
+                      std::string meaning) {
+  ParamFacts facts{
+      std::move(name),   ParamFacts::Kind::Word, S{}.*member, 0, 0, std::move(choices), "",
+      std::move(meaning)};
+  return {facts, [facts, member](S& settings, const std::string& text) {
+            settings.*member = facts.choices[parse_word(facts, text)];
+          }};
+}
+
 template <class S>
 std::vector<ParamFacts> facts_of(const Params<S>& params) {
   std::vector<ParamFacts> facts;

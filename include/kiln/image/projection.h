@@ -52,6 +52,23 @@ struct CubePoint {
 };
 CubePoint direction_to_cube(const Vec3<double>& d);
 
+/// The point of the octahedron |x| + |y| + |z| = 1 at (u, v) in [0,1]^2 of an octahedral map, not
+/// normalised: +Y in the middle, -Y in the corners; u toward +X, v toward +Z.
+template <class F>
+Vec3<F> octahedral_point(const Vec2<F>& uv) {
+  const F s = fma(F(2), uv.x, F(-1)), t = fma(F(2), uv.y, F(-1));
+  const F height = F(1) - abs(s) - abs(t);
+  const F fold = max(-height, F(0));
+  return {s - copysign(fold, s), height, t - copysign(fold, t)};
+}
+
+/// Unit direction of the point (u, v) in [0,1]^2 of an octahedral map, and back.
+Vec3<double> octahedral_to_direction(Vec2<double> uv);
+Vec2<double> direction_to_octahedral(const Vec3<double>& d);
+
+/// Exact solid angle of texel (x, y) of an octahedral map with edge n [sr].
+double octahedral_texel_solid_angle(int n, int x, int y);
+
 /// Exact solid angle of texel (x, y) of a cube face with edge n [sr].
 double cube_texel_solid_angle(int n, int x, int y);
 

@@ -24,8 +24,15 @@ enum class PixelType {
   /// step of a value, 2.2 / 255 (value a / 255)^(1.2/2.2) / (a / 255), shrinks as a grows. Within
   /// [0,1] a is 255 throughout, so such a file may also be filtered before it is decoded.
   Rgbd8,
+  /// Floats without sign in 32 bits: 11 bits of R (lowest) and of G, 10 of B, each with 5 bits of
+  /// exponent (bias 15) above 6, 6 and 5 of mantissa. Up to 65024, 65024 and 64512, in steps of
+  /// 1.6 %, 1.6 % and 3.1 % of a power of two.
+  B10g11r11,
+  /// Three mantissas of 9 bits, R lowest, and one exponent of 5 for all, in 32 bits. Up to 65408;
+  /// the step of all three is 1 part in 256 to 512 of the largest of them.
+  E5b9g9r9,
 };
-/// "uint8", "uint16", "half", "float", "rgb10a2", "rgbd8"
+/// "uint8", "uint16", "half", "float", "rgb10a2", "rgbd8", "b10g11r11", "e5b9g9r9"
 std::string_view pixel_type_name(PixelType type);
 
 /// Metadata "name" -> text.
@@ -36,12 +43,13 @@ struct FileFacts {
   std::string format;  ///< "openexr", "png", "jpeg", "hdr", "tiff", ...; told by the contents
   Size size;           ///< as returned: the display window, after orientation
   std::vector<std::string> channels;  ///< R G B (or Y), A first; layers keep full names
-  PixelType type = PixelType::Uint8;  ///< the smallest that holds what is stored; never Rgbd8
+  /// The smallest of the first five that holds what is stored.
+  PixelType type = PixelType::Uint8;
   /// As tagged by the file, never trusted for data: a name of the built-in colour configuration,
   /// or "icc: DESCRIPTION". Empty when the file does not say; formats' customs are not a tag.
   std::optional<std::string> color_space_tag;
-  bool node_aligned = false;       ///< lat-long with samples on the border
-  Attributes attributes;           ///< text metadata of the file, of EXR, HDR, PNG, TIFF and KTX
+  bool node_aligned = false;       ///< lat-long (of a texture: or cube) with samples on the border
+  Attributes attributes;           ///< text metadata, of EXR, HDR, PNG, TIFF, KTX and .env
   std::vector<std::string> notes;  ///< what had to be decided or repaired while reading
 };
 
@@ -59,8 +67,8 @@ struct ReadLimits {
 FileFacts inspect_image(const std::filesystem::path& path);
 
 /// Any image: OpenEXR, Radiance HDR, DDS and KTX that are not block-compressed, and .npy directly,
-/// everything else through OpenImageIO, which is loaded on first use. The contents decide the
-/// format, not the extension.
+/// everything else (and the images within .env) through OpenImageIO, which is loaded on first use.
+/// The contents decide the format, not the extension.
 ///
 /// The display window is what is returned, with 0 where a file has no data; EXIF and HDR
 /// orientation are applied. NaN and Inf are returned as stored. Of several parts or pages the first
@@ -170,5 +178,16 @@ WriteFacts write_image(const std::filesystem::path& path, const Layers& image,
 /// @error as write_image, and what making a band throws
 WriteFacts write_bands(const std::filesystem::path& path, const ImageBands& image,
                        const WriteOptions& options);
+
+/// What a reader of a file of this type gets: each value rounded, clamped or shared an exponent as
+/// the type has it. The difference to `image` is the error of the encoding. Layers keep their
+/// names and order.
+/// @error Fault::Usage for more channels than the type has (b10g11r11, e5b9g9r9, rgbd8: R G B, or
+///        one or two; rgb10a2: four)
+Layers coded(const Layers& image, PixelType type);
+
+/// The same for Radiance HDR: three layers that share an exponent.
+/// @error Fault::Usage for more or fewer layers
+Layers coded_as_hdr(const Layers& image);
 
 }  // namespace kiln

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "kiln/image/layers.h"
@@ -15,41 +12,25 @@
 
 namespace kiln {
 
-/// How roughness runs along the levels of a chain, with l = level / (levels - 1):
-/// filament r = 1 - sqrt(1 - l), linear r = l.
-enum class RoughnessCurve { Filament, Linear };
-inline constexpr std::array<std::string_view, 2> roughness_curve_names = {"filament", "linear"};
-
-/// Perceptual roughness of a position l in [0,1] along the chain.
-double roughness_at(RoughnessCurve curve, double l);
-
-/// Position along the chain of a perceptual roughness in [0,1]; the inverse of roughness_at.
+/// Position along a chain of a perceptual roughness in [0,1], l = r (2 - r): the inverse of the
+/// filament curve, r = 1 - sqrt(1 - l).
 template <class F>
-F position_of(RoughnessCurve curve, F roughness) {
-  return curve == RoughnessCurve::Linear ? roughness : roughness * (F(2) - roughness);
+F chain_position(F roughness) {
+  return roughness * (F(2) - roughness);
 }
 
 struct ChainOptions {
-  int size = 256;  ///< edge of the first level's faces [texel]
-  RoughnessCurve curve = RoughnessCurve::Filament;
+  int size = 256;         ///< edge of the first level's faces [texel]
   double rotate_deg = 0;  ///< as of Environment; applied to lookups, not to the faces [degree]
 };
 
-/// A cube-mapped environment of halving sizes, each level filtered by a wider GGX lobe.
+/// A cube-mapped environment of halving sizes, each level filtered by a wider GGX lobe, to be
+/// looked up at any roughness.
 ///
 /// Level 0 is the environment itself (roughness 0), averaged over each texel's area. Every other
-/// level is, at texel centres and with normal = view = direction d,
-///
-///     sum L(w) K(d.w) dw / sum K(d.w) dw,     K(c) = c / (((1 + c)/2 (alpha^2 - 1) + 1)^2), c > 0
-///
-/// over the texels of the source as point masses of exact solid angle, alpha = roughness^2. A
-/// source too coarse for the sharpest lobe is first made finer by bilinear interpolation.
-/// @accuracy 1e-5 rms of the level's mean against that sum; 1e-3 at the peak of a single-texel sun
-/// @source   Walter et al. 2007 (GGX); Karis 2013 (n = v = r); Funk-Hecke theorem
+/// level is what Prefilter makes of it; roughness runs along the levels by the filament curve.
 class SpecularChain {
  public:
-  static constexpr int smallest_face = 16;
-
   /// @param latlong  planes R G B (or one plane, grey), values at texel centres, finite
   /// @error Fault::Input when the image is empty or has neither one nor three colours,
   ///        Fault::Usage when options.size is not in [1, 4096]
@@ -57,7 +38,7 @@ class SpecularChain {
 
   int levels() const { return static_cast<int>(sizes_.size()); }
   int size(int level) const { return sizes_[static_cast<size_t>(level)]; }
-  double roughness(int level) const;
+  double roughness(int level) const { return roughness_[static_cast<size_t>(level)]; }
 
   /// One face as planes R G B, in the orientation of the source image.
   Layers face(int level, CubeFace face) const;
@@ -89,12 +70,12 @@ class SpecularChain {
   }
 
   size_t texel_index(int level, int face, int x, int y) const;
-  void store_level(int level, std::span<const Vec3<float>> texels);
+  void store_level(int level, const std::vector<Layers>& faces);
   void fill_borders(int level);
 
-  RoughnessCurve curve_;
   Turn turn_;
   std::vector<int> sizes_;
+  std::vector<double> roughness_;
   std::vector<float> edges_;           ///< sizes_ as float, for gathers
   std::vector<std::int32_t> firsts_;   ///< [levels + 1] index of each level's first number
   std::vector<std::int32_t> strides_;  ///< edge of a face with its border
@@ -142,7 +123,7 @@ Vec3<F> SpecularChain::bilinear(const Point<F>& point, LaneIndex<F> level) const
 template <class F>
 Vec3<F> SpecularChain::lookup(const Vec3<F>& d, F roughness) const {
   const auto last = static_cast<float>(levels() - 1);
-  const F position = clamp_to_table(position_of(curve_, roughness) * F(last), last);
+  const F position = clamp_to_table(chain_position(roughness) * F(last), last);
   const F sharper = floor(position);
   const F rougher = min(sharper + F(1), F(last));
   const Point<F> point = point_of(turn_.to_image(d));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "kiln/image/layers.h"
+#include "kiln/light/axes.h"
 #include "kiln/math/vec.h"
 
 namespace kiln {
@@ -22,12 +25,28 @@ std::vector<double> harmonics_at(int order, const Vec3<double>& d);
 
 /// L_lm = integral of L Y_lm over the sphere, summed over texel centres with exact solid angles.
 /// @param latlong  planes R G B (or one plane, grey), values at texel centres
-SphericalHarmonics project_sh(const Layers& latlong, int order);
+/// @param axes     of the harmonics; those of kiln unless stated
+/// @accuracy  1e-12 of L_00
+SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes = {});
 
 /// The expansion of irradiance over pi, from that of radiance: each band times A_l / pi.
 /// @source Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance
 ///         Environment Maps", eq. 8 and 9
 SphericalHarmonics irradiance_over_pi(const SphericalHarmonics& radiance);
+
+/// What tames the ringing of a sun: band l is damped,
+/// Hann by (1 + cos(pi l / w)) / 2, Lanczos by sin(pi l / w) / (pi l / w), with w = order + 1.
+enum class ShWindow { None, Hann, Lanczos };
+inline constexpr std::array<std::string_view, 3> sh_window_names = {"none", "hann", "lanczos"};
+SphericalHarmonics windowed(const SphericalHarmonics& sum, ShWindow window);
+
+/// The nine coefficients up to order 2, with the constants of the harmonics multiplied in, so that
+/// a shader sums
+///
+///     c0 + c1 y + c2 z + c3 x + c4 x y + c5 y z + c6 (3 z^2 - 1) + c7 x z + c8 (x^2 - y^2)
+///
+/// @valid     order >= 2
+std::array<Vec3<double>, 9> scaled_for_shaders(const SphericalHarmonics& sum);
 
 Vec3<double> evaluate(const SphericalHarmonics& sum, const Vec3<double>& d);
 

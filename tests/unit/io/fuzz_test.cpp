@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <random>
 
-#include "image_folder.h"
 #include "kiln/io/number_arrays.h"
 #include "support/real_data.h"
+#include "texture_pattern.h"
 
 // Small valid files, cut short and with bytes changed: every reader returns or throws an Error. The
 // sanitizers of the dev preset see what else it does.
@@ -37,21 +37,52 @@ class Fuzz : public ImageFolder {
     }
   }
 
+  // The same as a texture. Levels and faces that are returned have the channels that are told.
+  void read_levels(const std::string& name, const std::string& bytes) const {
+    fs::remove(folder / name);
+    const fs::path path = write_bytes(name, bytes);
+    try {
+      const TextureFile file = read_texture(path, limits);
+      long long texels = 0;
+      for (const std::vector<Layers>& level : file.texture.levels) {
+        ASSERT_EQ(level.size(), file.texture.levels.front().size()) << name;
+        for (const Layers& face : level) {
+          texels += area(face.size);
+          ASSERT_EQ(channel_names(face), file.facts.channels) << name;
+        }
+      }
+      ASSERT_LE(texels, limits.max_texels);
+      ++read_;
+      read_image(path, limits);
+    } catch (const Error& error) {
+      ++refused_;
+      EXPECT_EQ(error.fault(), Fault::Input) << error.what();
+      EXPECT_EQ(std::string(error.what()).rfind(path.string(), 0), 0u) << error.what();
+    }
+  }
+
   static bool is_text(const fs::path& path) {
     return path.extension() != ".dds" && path.extension() != ".npy" && path.extension() != ".ktx" &&
            path.extension() != ".ktx2";
   }
 
-  void cut(const std::string& name, const std::string& bytes) const {
+  enum class As { Arrays, Levels };
+  void attempt(const std::string& name, const std::string& bytes, As as) const {
+    if (as == As::Levels) return read_levels(name, bytes);
+    read(name, bytes);
+  }
+
+  void cut(const std::string& name, const std::string& bytes, As as = As::Arrays) const {
     constexpr size_t most = 200;
     const size_t step = std::max<size_t>(1, bytes.size() / most);
     for (size_t length = 1; length < bytes.size(); length += step) {
-      read(name, bytes.substr(0, length));
+      attempt(name, bytes.substr(0, length), as);
     }
   }
 
   // Half of the changes fall into the first bytes, where headers are.
-  void change(const std::string& name, const std::string& bytes, uint32_t seeds = 300) const {
+  void change(const std::string& name, const std::string& bytes, uint32_t seeds = 300,
+              As as = As::Arrays) const {
     for (uint32_t seed = 0; seed < seeds; ++seed) {
       std::minstd_rand random(seed + 1);
       std::string changed = bytes;
@@ -64,7 +95,7 @@ class Fuzz : public ImageFolder {
         if (kind == 1) byte = static_cast<char>(random());
         if (kind == 2) byte = static_cast<char>(byte ^ 1 << random() % 8);
       }
-      read(name, changed);
+      attempt(name, changed, as);
     }
   }
 
@@ -148,6 +179,35 @@ TEST_F(Fuzz, DamagedTexturesAreReadOrRefused) {
     cut(name, bytes);
     change(name, bytes);
   }
+}
+
+TEST_F(Fuzz, DamagedLevelsAndFacesAreReadOrRefused) {
+  struct Case {
+    const char* name;
+    PixelType type;
+    Supercompression packing = Supercompression::None;
+    Samples samples = Samples::Texels;
+  };
+  for (const Case& one :
+       {Case{"a.ktx2", PixelType::Half}, Case{"b.ktx2", PixelType::Float, Supercompression::Zstd},
+        Case{"a.ktx", PixelType::B10g11r11}, Case{"a.dds", PixelType::E5b9g9r9},
+        Case{"a.env", PixelType::Rgbd8},
+        Case{"a.exr", PixelType::Half, Supercompression::None, Samples::Nodes}}) {
+    write_texture(folder / one.name, cube(4, 3),
+                  {.type = one.type,
+                   .supercompression = one.packing,
+                   .samples = one.samples,
+                   .attributes = {{"sh", "0.5 0.5 0.5"}},
+                   .irradiance = IrradiancePolynomial{}});
+    const std::string bytes = bytes_of(folder / one.name);
+    read_ = 0;
+    read_levels(one.name, bytes);
+    EXPECT_EQ(read_, 1) << one.name;
+    cut(one.name, bytes, As::Levels);
+    change(one.name, bytes, 300, As::Levels);
+    EXPECT_GT(read_, 1) << one.name;
+  }
+  EXPECT_GT(refused_, 1000);
 }
 
 TEST_F(Fuzz, DamagedFilesOfOthersAreReadOrRefused) {

@@ -35,6 +35,8 @@ double half_step(PixelType type, size_t channel) {
       return 2.2 * 0.5001 / 255;  // half of the step at value 1
     case PixelType::Float:
       return 5e-9;  // nine digits
+    default:
+      return 0;
   }
   return 0;
 }

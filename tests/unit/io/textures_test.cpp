@@ -8,6 +8,7 @@
 #include "crafted_files.h"
 #include "image_folder.h"
 #include "kiln/io/number_arrays.h"
+#include "kiln/io/texture_file.h"
 
 namespace kiln {
 namespace {
@@ -144,6 +145,26 @@ TEST_F(Textures, TheFirstFaceAndLevelIsTheImageAndANoteSaysSo) {
   EXPECT_EQ(read_image(cube).image.size, (Size{2, 1}));
 }
 
+TEST_F(Textures, LegacyDdsCubesHaveAllTheirFacesAndLevelsAsTextures) {
+  std::string texels;
+  for (uint32_t face = 0; face < 6; ++face) {
+    for (uint32_t n = 0; n < 5; ++n) texels += float_bytes(static_cast<float>(10 * face + n));
+  }
+  CraftedDds file{.width = 2, .height = 2, .mips = 2, .four_cc = 114, .behind = texels};
+  file.caps2 = 0xfe00;
+  const TextureFile cube = read_texture(write_bytes("cube.dds", dds(file)));
+  ASSERT_EQ(cube.texture.levels.size(), 2u);
+  ASSERT_EQ(cube.texture.levels[1].size(), 6u);
+  for (size_t f = 0; f < 6; ++f) {
+    EXPECT_EQ(cube.texture.levels[0][f].layers[0].plane.at(1, 1), 10.0f * float(f) + 3);
+    EXPECT_EQ(cube.texture.levels[1][f].layers[0].plane.at(0, 0), 10.0f * float(f) + 4);
+  }
+  EXPECT_TRUE(cube.facts.notes.empty());
+  file.caps2 = 0x0e00;
+  EXPECT_THAT(fault_text(Fault::Input, [&] { read_texture(write_bytes("part.dds", dds(file))); }),
+              HasSubstr("a cube of 2 faces, expected all six"));
+}
+
 TEST_F(Textures, SaysWhichFormatOfDdsIsTruncated) {
   const fs::path path = write_bytes("a.dds", dds({.width = 4, .four_cc = 116, .behind = "abc"}));
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(path); }),
@@ -227,9 +248,12 @@ TEST_F(Textures, NamesWhatOfKtxIsNotRead) {
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(block); }), HasSubstr("block-compressed"));
   write_image(folder / "b.ktx2", pattern({4, 4}, {"E"}), {});
   std::string bytes = bytes_of(folder / "b.ktx2");
+  bytes[44] = 3;
+  EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(write_bytes("c.ktx2", bytes)); }),
+              HasSubstr("c.ktx2: supercompressed with ZLIB, which is not read"));
   bytes[44] = 2;
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(write_bytes("c.ktx2", bytes)); }),
-              HasSubstr("c.ktx2: supercompressed with Zstandard, which is not read"));
+              HasSubstr("c.ktx2: damaged Zstandard frame"));
   bytes[44] = 0;
   bytes[12] = static_cast<char>(145);
   EXPECT_THAT(fault_text(Fault::Input, [&] { read_image(write_bytes("d.ktx2", bytes)); }),

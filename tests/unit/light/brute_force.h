@@ -9,8 +9,8 @@
 #include "kiln/light/irradiance.h"
 #include "kiln/light/specular_chain.h"
 #include "kiln/parallel/rows.h"
+#include "lobe.h"
 #include "synthetic.h"
-#include "zonal_kernel.h"
 
 namespace kiln::test {
 
@@ -37,8 +37,8 @@ class BruteForce {
       const Vec3<WideDouble> apart{WideDouble(d.x) - load_lanes<WideDouble>(x_.data() + i),
                                    WideDouble(d.y) - load_lanes<WideDouble>(y_.data() + i),
                                    WideDouble(d.z) - load_lanes<WideDouble>(z_.data() + i)};
-      const WideDouble lobe =
-          ggx_lobe(WideDouble(0.25) * dot(apart, apart), WideDouble(alpha * alpha));
+      const WideDouble lobe = lobe_at(Ggx<WideDouble>::isotropic(WideDouble(alpha)),
+                                      WideDouble(0.25) * dot(apart, apart));
       for (size_t c = 0; c < 4; ++c) {
         sums[c] = fma(lobe, load_lanes<WideDouble>(power_[c].data() + i), sums[c]);
       }

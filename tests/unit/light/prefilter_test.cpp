@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "prefilter.h"
+#include "kiln/light/prefilter.h"
 
 #include <gtest/gtest.h>
 
 #include "brute_force.h"
+#include "finer.h"
+#include "kiln/brdf/models.h"
+#include "kiln/core/error.h"
+#include "kiln/light/filter_error.h"
 
 namespace kiln {
 namespace {
@@ -36,12 +40,81 @@ TEST(Prefilter, IsNearBruteForceForSizesThatAreNoPowersOfTwo) {
 }
 
 TEST(Prefilter, FirstMakesACoarseSourceFinerForASharpLobe) {
-  const Layers image = test::sunny_environment({48, 24}, 30);
-  // The levels of a chain of 64, 32 and 16 by the filament curve.
-  const Refinement times = refinement_for(
-      image.size, {{.size = 32, .alpha = square(1 - std::sqrt(0.5))}, {.size = 16, .alpha = 1}});
-  EXPECT_GE(48 * times.across, 2 * 6 / 0.0858);
-  expect_levels_near_brute_force(image, finer(image, times), 64);
+  const Layers image = test::sunny_environment({32, 16}, 30);
+  const Lobe sharp{.alpha = 0.02};
+  const Refinement times = refinement_for(image.size, 300);
+  EXPECT_GE(32 * times.across, 301);
+  const std::vector<Vec3<double>> directions = {test::random_direction(0, 1),
+                                                test::brightest_direction(image)};
+  const Layers finer_image = finer(image, {16, 16});
+  const Prefilter coarse(image, {sharp}), fine(finer_image, {sharp});
+  const auto a = coarse.brute_force({{sharp, directions}}),
+             b = fine.brute_force({{sharp, directions}});
+  for (size_t i = 0; i < 2; ++i) EXPECT_NEAR(a[0][i].x, b[0][i].x, 5e-3 * b[0][i].x);
+  const FilteredLevel level{
+      sharp, {SphereLayout::Cube, 64}, coarse.filter(sharp, {SphereLayout::Cube, 64})};
+  EXPECT_LT(filter_errors(coarse, {level}, mean_radiance(image).y)[0].rms, 1e-4);
+}
+
+TEST(Prefilter, FiltersWithEveryListedDistribution) {
+  const Layers image = test::sunny_environment({256, 128}, 1e3);
+  const double mean = mean_radiance(image).y;
+  for (const std::string& name : model_names("distribution")) {
+    for (const double alpha : {0.1, 0.6}) {
+      const Lobe lobe{name, alpha};
+      const Prefilter prefilter(image, {lobe});
+      const FilteredLevel level{
+          lobe, {SphereLayout::Cube, 32}, prefilter.filter(lobe, {SphereLayout::Cube, 32})};
+      const FilterError error = filter_errors(prefilter, {level}, mean)[0];
+      EXPECT_LT(error.rms, 1e-4) << name << " " << alpha;
+      EXPECT_LT(error.max, 1e-3) << name << " " << alpha;
+      EXPECT_GT(error.max, 0) << name << " " << alpha;
+    }
+  }
+}
+
+TEST(Prefilter, IsTheSameFunctionInEveryLayout) {
+  const Layers image = test::sunny_environment({256, 128}, 100);
+  const Lobe lobe{.alpha = 0.2};
+  const Prefilter prefilter(image, {lobe});
+  for (const SphereLayout layout :
+       {SphereLayout::Cube, SphereLayout::LatLong, SphereLayout::Octahedral}) {
+    for (const bool at_nodes : {false, true}) {
+      const SphereGrid grid{layout, 16, at_nodes};
+      const FilteredLevel level{lobe, grid, prefilter.filter(lobe, grid)};
+      EXPECT_LT(filter_errors(prefilter, {level}, mean_radiance(image).y)[0].max, 1e-4);
+    }
+  }
+}
+
+TEST(Prefilter, KeepsTheMeanOverTheSphereOfWideLobes) {
+  // The mean of the exact convolution is that of the source: its kernel has integral 1.
+  const Layers image = test::sunny_environment({256, 128}, 1e4);
+  const double mean = mean_radiance(image).y;
+  for (const double alpha : {0.09, 0.25, 1.0}) {
+    const Lobe lobe{.alpha = alpha};
+    const auto latlong = Prefilter(image, {lobe}).filter(lobe, {SphereLayout::LatLong, 64});
+    EXPECT_NEAR(mean_radiance(latlong[0]).y, mean, 1e-4 * mean) << alpha;
+  }
+}
+
+TEST(Prefilter, OfTheWidestLobeIsIrradianceOverPi) {
+  const Layers image = test::sunny_environment({256, 128}, 100);
+  const Lobe cosine{.alpha = 1};
+  const auto faces = Prefilter(image, {cosine}).filter(cosine, {SphereLayout::Cube, 8});
+  for (int face = 0; face < 6; ++face) {
+    const Vec3<double> n =
+        normalize(cube_to_direction(static_cast<CubeFace>(face), {3.5 / 8, 5.5 / 8}));
+    const double expected = normalised_irradiance(image, std::vector{n})[0].y;
+    EXPECT_NEAR(faces[static_cast<size_t>(face)].layers[1].plane.at(3, 5), expected,
+                2e-4 * mean_radiance(image).y);
+  }
+}
+
+TEST(Prefilter, RefusesLobesTooNarrowForIt) {
+  const Layers white = test::constant_environment({16, 8}, 1);
+  EXPECT_THROW(Prefilter(white, {{.alpha = 0.001}}), Error);
+  EXPECT_THROW(Prefilter(white, {{.distribution = "gxg", .alpha = 0.5}}), Error);
 }
 
 TEST(Prefilter, LeavesNoUndershootInTheDark) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "kiln/core/error.h"
-#include "kiln/light/chain_error.h"
 #include "kiln/light/irradiance.h"
 #include "kiln/parallel/threads.h"
 #include "synthetic.h"
@@ -35,17 +34,12 @@ TEST(SpecularChain, HalvesItsSizesDownToSixteen) {
 }
 
 TEST(SpecularChain, NamesTheRoughnessOfEachLevel) {
-  const Layers white = test::constant_environment({16, 8}, 1);
-  const SpecularChain filament(white, {.size = 64});
-  EXPECT_EQ(filament.roughness(0), 0);
-  EXPECT_NEAR(filament.roughness(1), 1 - std::sqrt(0.5), 1e-15);
-  EXPECT_EQ(filament.roughness(2), 1);
-  const SpecularChain linear(white, {.size = 64, .curve = RoughnessCurve::Linear});
-  EXPECT_EQ(linear.roughness(1), 0.5);
-  for (const RoughnessCurve curve : {RoughnessCurve::Filament, RoughnessCurve::Linear}) {
-    for (const double l : {0.0, 0.2, 0.7, 1.0}) {
-      EXPECT_NEAR(position_of(curve, roughness_at(curve, l)), l, 1e-15);
-    }
+  const SpecularChain chain(test::constant_environment({16, 8}, 1), {.size = 64});
+  EXPECT_EQ(chain.roughness(0), 0);
+  EXPECT_NEAR(chain.roughness(1), 1 - std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(chain.roughness(2), 1);
+  for (int level = 0; level < 3; ++level) {
+    EXPECT_NEAR(chain_position(chain.roughness(level)), level / 2.0, 1e-15);
   }
 }
 
@@ -112,7 +106,7 @@ TEST(SpecularChain, KeepsTheMeanRadianceInItsFirstLevel) {
     }
   }
   const double mean = mean_radiance(image).y;
-  EXPECT_NEAR(sum / (4 * pi), mean, 2e-3 * mean);
+  EXPECT_NEAR(sum / (4 * pi), mean, 1e-4 * mean);
 }
 
 /// Both sides of a point on the edge between two faces, a hair apart.
@@ -159,13 +153,12 @@ TEST(SpecularChainLookup, ReturnsATexelAtItsCentre) {
 }
 
 TEST(SpecularChainLookup, BlendsTheLevelsByRoughness) {
-  const SpecularChain chain(test::sunny_environment({128, 64}, 100),
-                            {.size = 32, .curve = RoughnessCurve::Linear});
+  const SpecularChain chain(test::sunny_environment({128, 64}, 100), {.size = 32});
   const Vec3<double> d = random_direction(0, 1);
   const double a = chain.lookup_level(d, 0).x, b = chain.lookup_level(d, 1).x;
-  EXPECT_NEAR(chain.lookup(d, 0.25).x, 0.75 * a + 0.25 * b, 1e-6);
-  EXPECT_EQ(chain.lookup(d, -1.0).x, a);
-  EXPECT_EQ(chain.lookup(d, 2.0).x, b);
+  EXPECT_NEAR(chain.lookup(d, 0.25).x, lerp(a, b, 0.25 * 1.75), 1e-6);
+  EXPECT_EQ(chain.lookup(d, 0.0).x, a);
+  EXPECT_EQ(chain.lookup(d, 1.0).x, b);
 }
 
 TEST(SpecularChainLookup, IsTheSameForWideNumbers) {
@@ -221,18 +214,6 @@ TEST(SpecularChain, DoesNotDependOnTheThreads) {
         }
       }
     }
-  }
-}
-
-TEST(SpecularChain, StatesHowNearItIsToBruteForce) {
-  for (const Size size : {Size{256, 128}, Size{40, 20}}) {
-    const Layers image = test::sunny_environment(size, 100);
-    const std::vector<double> errors = chain_errors(image, SpecularChain(image, {.size = 64}));
-    ASSERT_EQ(errors.size(), 3u);
-    EXPECT_EQ(errors[0], 0);
-    EXPECT_LT(errors[1], 1e-4);
-    EXPECT_LT(errors[2], 1e-4);
-    EXPECT_GT(errors[1], 0);
   }
 }
 

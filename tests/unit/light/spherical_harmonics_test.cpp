@@ -107,5 +107,49 @@ TEST(SphericalHarmonics, DoNotDependOnTheThreads) {
   }
 }
 
+TEST(SphericalHarmonics, AreThoseOfTheTexelsOneByOne) {
+  for (const Size size : {Size{64, 32}, Size{45, 21}}) {
+    const Layers image = test::sunny_environment(size, 50);
+    for (const Axes& axes : {Axes{}, parse_axes("z,-x,y")}) {
+      const SphericalHarmonics found = project_sh(image, 4, axes);
+      std::vector<double> expected(25);
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          const auto values = harmonics_at(4, axes.to_engine(test::texel_direction(size, x, y)));
+          const double power = image.layers[1].plane.at(x, y) * latlong_texel_solid_angle(size, y);
+          for (size_t i = 0; i < 25; ++i) expected[i] += values[i] * power;
+        }
+      }
+      for (size_t i = 0; i < 25; ++i) {
+        EXPECT_NEAR(found.coefficients[i].y, expected[i], 1e-12 * expected[0]);
+      }
+    }
+  }
+}
+
+TEST(SphericalHarmonics, ScaledForShadersGiveTheSameSumAsAPolynomial) {
+  const SphericalHarmonics sum = project_sh(test::sunny_environment({64, 32}, 50), 2);
+  const auto c = scaled_for_shaders(sum);
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const Vec3<double> n = test::random_direction(5, i);
+    const double polynomial = c[0].x + c[1].x * n.y + c[2].x * n.z + c[3].x * n.x +
+                              c[4].x * n.x * n.y + c[5].x * n.y * n.z +
+                              c[6].x * (3 * n.z * n.z - 1) + c[7].x * n.x * n.z +
+                              c[8].x * (n.x * n.x - n.y * n.y);
+    EXPECT_NEAR(polynomial, evaluate(sum, n).x, 1e-12);
+  }
+}
+
+TEST(SphericalHarmonics, AreDampedByWindowsButForTheMean) {
+  const SphericalHarmonics sum = project_sh(test::sunny_environment({64, 32}, 50), 3);
+  for (const ShWindow window : {ShWindow::Hann, ShWindow::Lanczos}) {
+    const SphericalHarmonics damped = windowed(sum, window);
+    EXPECT_EQ(damped.coefficients[0].x, sum.coefficients[0].x);
+    EXPECT_LT(std::abs(damped.coefficients[9].x), std::abs(sum.coefficients[9].x));
+  }
+  EXPECT_NEAR(windowed(sum, ShWindow::Hann).coefficients[5].x, 0.5 * sum.coefficients[5].x, 1e-15);
+  EXPECT_EQ(windowed(sum, ShWindow::None).coefficients[5].x, sum.coefficients[5].x);
+}
+
 }  // namespace
 }  // namespace kiln

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Times kiln's environment chains against Filament's cmgen (Debian package libfilament-tools): whole
+# processes, in turn on this machine, medians, from an OpenEXR file; and kiln's computing alone.
+# Then both tools' errors against brute force.
+#
+#   bench/env_against_cmgen.sh [IMAGE] [KILN] [RUNS]
+#
+# IMAGE is a lat-long image; without one, textures/env/studio.exr made 1024 x 512.
+set -euo pipefail
+here=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+image=$(cd "$here" && realpath "${1:-$OLDPWD/textures/env/studio.exr}")
+kiln=$(realpath "${2:-build/release/bin/kiln}")
+bench=$(dirname "$kiln")/bench_environment
+runs=${3:-5}
+for tool in cmgen oiiotool; do
+  command -v "$tool" > /dev/null || {
+    echo "$tool is not here: apt-get install libfilament-tools openimageio-tools" >&2
+    exit 3
+  }
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Microseconds that a command takes.
+timed() {
+  local begin end
+  begin=$(date +%s%N)
+  "$@" > "$work/log" 2>&1
+  end=$(date +%s%N)
+  echo $(((end - begin) / 1000))
+}
+
+median() { sort -n "$1" | sed -n "$((($(wc -l < "$1") + 1) / 2))p"; }
+
+compare() {
+  local width=$1 size=$2 count=$3 source ours theirs alone
+  source="$work/source_$width.exr"
+  oiiotool "$image" --ch R,G,B --resize "${width}x$((width / 2))" -d half --compression zip \
+    -o "$source"
+  : > "$work/ours"
+  : > "$work/theirs"
+  for ((i = 0; i < count; i++)); do
+    timed cmgen --quiet --type=cubemap --format=exr --size="$size" --ibl-samples=1024 \
+      --ibl-ld="$work/theirs_$size" "$source" >> "$work/theirs"
+    timed "$kiln" env "$source" --size "$size" --format ktx2 -o "$work/ours_$size" >> "$work/ours"
+  done
+  ours=$(median "$work/ours")
+  theirs=$(median "$work/theirs")
+  alone=$("$bench" "$source" "$size" "$work/theirs_$size/source_$width" | tee "$work/errors" |
+    sed -n 's/^computing //p')
+  awk -v w="$width" -v n="$size" -v a="$theirs" -v b="$ours" -v o="$alone" -v c="$count" 'BEGIN {
+    printf "%d x %d to a chain of %d   cmgen %8.1f ms   (medians of %d)\n", w, w / 2, n, a / 1000, c
+    printf "  kiln, whole process %8.1f ms   ratio %6.1f\n", b / 1000, a / b
+    printf "  kiln, computing     %8.1f ms   ratio %6.1f\n", o, a / 1000 / o }'
+  sed '/^computing/d; s/^/  /' "$work/errors"
+}
+
+compare 1024 256 "$runs"
+compare 4096 512 "$(((runs + 1) / 2))"
