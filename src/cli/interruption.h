@@ -6,8 +6,9 @@
 
 namespace kiln {
 
-/// Turns SIGINT and SIGTERM into a question that a run asks between tasks. A second signal ends the
-/// process at once. Made before any other thread, which inherit that these signals are blocked.
+/// Turns SIGINT and SIGTERM into a question that a run asks between tasks, and between bands of
+/// large files. A second signal ends the process at once. Made before any other thread, which
+/// inherit that these signals are blocked.
 class Interruption {
  public:
   Interruption();

@@ -80,6 +80,7 @@ class Runner {
       TaskRecord& record = report_.tasks[i];
       if (watcher_.began) watcher_.began(record, progress);
       attempt_task(plan_.tasks[i], record);
+      if (record.status == TaskRecord::Status::NotRun) break;
       ++progress.done;
       if (watcher_.ended) watcher_.ended(record, progress);
     }
@@ -149,6 +150,17 @@ class Runner {
     if (record.fault) record.status = TaskRecord::Status::Failed;
     release(task);
     record.seconds = seconds_since(start);
+    const bool stopped = record.fault && record.fault->fault() == Fault::Interrupted;
+    if (stopped) record = announce(task);
+  }
+
+  // What is written band by band is given up between two, and its file does not appear.
+  void heed_signals(ImageBands& bands) {
+    if (!bands.make) return;
+    bands.make = [this, make = std::move(bands.make)](int first, int rows) {
+      if (interrupted()) throw Error(Fault::Interrupted, "stopped by a signal");
+      return make(first, rows);
+    };
   }
 
   void bake(const Task& task, TaskRecord& record) {
@@ -158,7 +170,8 @@ class Runner {
     if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
     if (task.needs.albedo) ingredients.albedo = albedo_.get().get();
     ingredients.coded = coded_as;
-    const Baked baked = task.recipe->bake(ingredients);
+    Baked baked = task.recipe->bake(ingredients);
+    for (Artifact& artifact : baked.artifacts) heed_signals(artifact.bands);
     record.notes = baked.notes;
     record.figures = baked.figures;
     const Written written = write_outputs(plan_, task, baked, config_);

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "kiln/brdf/roughness.h"
-#include "kiln/core/error.h"
-#include "kiln/core/names.h"
 #include "kiln/parallel/rows.h"
 #include "lane_sum.h"
 #include "lobe_kernels.h"
@@ -39,16 +37,6 @@ const Rule& unit_rule(int points) {
   }
 }
 
-// The clamp of the visibility acts only where both directions graze.
-bool bends_at(const std::string& masking, double mu) {
-  return masking == "neubelt-clamped" && mu < 0.25;
-}
-
-bool has_kinks(const std::string& masking) {
-  return masking == "v-cavity" || masking == "neumann" || masking == "kelemen" ||
-         masking == "estevez-kulla";
-}
-
 double greatest_error(const std::vector<LobeTerms>& found, const std::vector<LobeTerms>& truth) {
   double greatest = 0;
   for (size_t i = 0; i < found.size(); ++i) {
@@ -61,10 +49,9 @@ double greatest_error(const std::vector<LobeTerms>& found, const std::vector<Lob
   return greatest;
 }
 
-}  // namespace
-
-QuadratureOrder order_of(const Lobe& lobe, Quality quality, double mu) {
-  if (has_kinks(lobe.masking) || bends_at(lobe.masking, mu)) {
+// Steep views need fewer azimuths, for the integrand hardly changes over them.
+QuadratureOrder order_of(double kinked_below, Quality quality, double mu) {
+  if (mu < kinked_below) {
     constexpr QuadratureOrder orders[] = {{96, 128}, {128, 160}, {192, 192}, {256, 256}};
     return orders[static_cast<int>(quality)];
   }
@@ -75,12 +62,13 @@ QuadratureOrder order_of(const Lobe& lobe, Quality quality, double mu) {
   return order;
 }
 
+}  // namespace
+
 Quality finer(Quality quality) {
   return static_cast<Quality>(std::min(static_cast<int>(quality) + 1, 3));
 }
 
 struct LobeIntegrals::Work {
-  Lobe lobe;
   LobeKernels kernels;
   FresnelStage stage;
   double shape = 0;
@@ -102,7 +90,7 @@ struct LobeIntegrals::Work {
   }
 
   std::vector<LobeTerms> column(double mu, std::span<const double> alphas, Quality wanted) const {
-    const QuadratureOrder order = order_of(lobe, wanted, mu);
+    const QuadratureOrder order = order_of(kernels.kinked_below, wanted, mu);
     const ViewRule view = make_view_rule(mu, order.azimuths);
     std::vector<LobeTerms> terms;
     terms.reserve(alphas.size());
@@ -153,7 +141,7 @@ struct LobeIntegrals::Work {
   // Grows until it repeats the quadrature, or gives up.
   void build_field() {
     const double smooth = quality == Quality::Table ? 2e-7 : 2e-11;
-    const double tolerance = has_kinks(lobe.masking) ? 5e-5 : smooth;
+    const double tolerance = kernels.kinked_below > 1 ? 5e-5 : smooth;
     const double decades = std::log10(1 / floor_mu);
     int mus = static_cast<int>((quality == Quality::Table ? 14 : 21) * decades) + 2;
     int alphas = quality == Quality::Table ? 48 : 84;
@@ -172,7 +160,6 @@ struct LobeIntegrals::Work {
 LobeIntegrals::LobeIntegrals(const Lobe& lobe, const FresnelChoice& fresnel, Quality quality,
                              double floor_mu)
     : work_(std::make_unique<Work>()) {
-  work_->lobe = {kebab(lobe.distribution), kebab(lobe.masking), lobe.shape};
   work_->kernels = find_lobe_kernels(lobe.distribution, lobe.masking);
   work_->shape = shape_of(lobe.distribution, lobe.shape);
   work_->stage = {find_fresnel_stage(fresnel.name), fresnel.parameters};
@@ -188,7 +175,8 @@ LobeTerms LobeIntegrals::at(const LobePoint& point) const {
   // An anisotropic lobe changes over the azimuth however steep the view.
   const double aspect = std::max(point.alpha_x / point.alpha_y, point.alpha_y / point.alpha_x);
   const bool isotropic = point.alpha_x == point.alpha_y;
-  QuadratureOrder order = order_of(work_->lobe, work_->quality, isotropic ? point.mu : least_mu);
+  QuadratureOrder order =
+      order_of(work_->kernels.kinked_below, work_->quality, isotropic ? point.mu : least_mu);
   if (!isotropic) order.azimuths *= 1 + static_cast<int>(std::min(aspect, 16.0) / 2);
   return work_->integrate(make_view_rule(point.mu, order.azimuths), point, order.slopes);
 }

@@ -82,11 +82,17 @@ struct VisibleNormals {
   }
 };
 
+template <class Masking>
+constexpr double kinked_below() {
+  if constexpr (requires { Masking::kinked_below; }) return Masking::kinked_below;
+  return 0;
+}
+
 template <template <class> class Distribution, template <class> class Masking>
 LobeKernels kernels_of() {
   const bool sheen = Distribution<Wide>::name == Charlie<Wide>::name;
   return {integrate_lobe<Distribution, Masking>,
-          sheen ? nullptr : reflect_mirror<Distribution, Masking>};
+          sheen ? nullptr : reflect_mirror<Distribution, Masking>, kinked_below<Masking<Wide>>()};
 }
 
 }  // namespace

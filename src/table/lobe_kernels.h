@@ -13,6 +13,7 @@ struct LobeKernels {
   /// The limit of zero width, a mirror behind the masking; null for lobes that have none.
   void (*mirror)(const ViewRule& view, double shape, const FresnelStage& stage,
                  Wide* sums) = nullptr;
+  double kinked_below = 0;  ///< n.v under which the integrand has kinks, as the masking says
 };
 
 /// The kernels of a listed pair of distribution and masking.

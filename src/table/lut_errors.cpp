@@ -171,6 +171,7 @@ LutErrors errors_of(LutSource& source) {
 
 std::vector<double> look_up(LutSource& source, const std::vector<double>& point) {
   std::vector<std::vector<double>> coordinates;
+  coordinates.reserve(point.size());
   for (const double coordinate : point) coordinates.push_back({coordinate});
   const Lookups lookups = lookups_at(source, coordinates);
   std::vector<double> values;

@@ -23,6 +23,7 @@ struct EstevezKulla {
   template <class Distribution>
   static constexpr bool fits = std::is_same_v<Distribution, Charlie<F>>;
   static constexpr bool one_sided = true;
+  static constexpr double kinked_below = 2;  // from every view
 
   /// @valid mu in [0,1], alpha in [0,1]; clamped
   static F lambda(F alpha, F mu) {

@@ -17,6 +17,7 @@ struct Kelemen {
   template <class Distribution>
   static constexpr bool fits = true;
   static constexpr bool one_sided = false;
+  static constexpr double kinked_below = 2;  // from every view
 
   template <class Distribution>
   static F G2(const Distribution& distribution, const Vec3<F>& wo, const Vec3<F>& wi,

@@ -49,6 +49,7 @@ struct NeubeltClamped {
   template <class Distribution>
   static constexpr bool fits = true;
   static constexpr bool one_sided = false;
+  static constexpr double kinked_below = 0.25;  // the clamp acts where both directions graze
 
   template <class Distribution>
   static F G2(const Distribution& distribution, const Vec3<F>& wo, const Vec3<F>& wi,

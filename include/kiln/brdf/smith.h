@@ -10,7 +10,8 @@ namespace kiln {
 // A masking model says how much of the microfacets that face a direction other microfacets hide.
 // G1 is for one direction w with w.wm > 0, G2 for two, both in [0,1]; `visibility` is
 // G2 / (4 mu_o mu_i) [1], written so that no small numbers are divided by each other. `fits` says
-// for which distributions a model has what it needs, `one_sided` whether there is a G1.
+// for which distributions a model has what it needs, `one_sided` whether there is a G1,
+// `kinked_below`, if it is there, under which n.v the formula has kinks in wi (2: everywhere).
 
 /// Smith's masking and shadowing, correlated in height: G2 = 1 / (1 + Lambda(wo) + Lambda(wi)).
 /// @source Heitz 2014, "Understanding the Masking-Shadowing Function"

@@ -20,6 +20,7 @@ struct VCavity {
   template <class Distribution>
   static constexpr bool fits = true;
   static constexpr bool one_sided = true;
+  static constexpr double kinked_below = 2;  // from every view
 
   template <class Distribution>
   static F G1(const Distribution&, const Vec3<F>& w, const Vec3<F>& wm) {

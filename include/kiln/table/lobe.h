@@ -38,8 +38,6 @@ inline constexpr const char* visible_normals = "visible normals";
 /// How far a quadrature goes. GGX with Smith masking errs by 2e-8 at Table, 1e-9 at Check, 1e-11 at
 /// Exact, 1e-12 at Beyond, which only checks the others. Maskings with kinks err more.
 enum class Quality { Table, Check, Exact, Beyond };
-/// Steep views need fewer azimuths, for the integrand hardly changes over them.
-QuadratureOrder order_of(const Lobe& lobe, Quality quality, double mu);
 /// The next better one, against which errors are measured.
 Quality finer(Quality quality);
 

@@ -218,6 +218,31 @@ TEST(Run, StopsBetweenTasksWhenInterrupted) {
             (std::vector<std::string>{".kiln/report.json", ".kiln/times.json", "a.exr"}));
 }
 
+const char* const large_volume =
+    "bakes: [{ bake: lut, table: ior, axes: \"f0,mu,roughness\", channels: scale, size: 4x600, "
+    "depth: 120, out: a.dds }]\n";
+
+TEST(Run, WritesAVolumeInBandsAndItsMetadataBeside) {
+  const Workshop shop;
+  const Report report = run_plan(plan_of(shop, large_volume), Records::None);
+  EXPECT_EQ(report.tasks.at(0).status, Status::Baked);
+  EXPECT_EQ(report.tasks.at(0).outputs, (std::vector<std::string>{"a.dds", "a.dds.json"}));
+  EXPECT_EQ(read_image(shop / "out" / "a.dds").image.size, (Size{4, 72000}));
+}
+
+TEST(Run, StopsBetweenBandsWhenInterruptedAndLeavesNothing) {
+  const Workshop shop;
+  const Plan plan = plan_of(shop, large_volume);
+  int asked = 0;
+  Watcher watcher;
+  watcher.interrupted = [&] { return ++asked > 2 ? 2 : 0; };
+  const Report report = run_plan(plan, Records::None, watcher);
+  EXPECT_EQ(exit_code(report), 130);
+  EXPECT_EQ(report.tasks.at(0).status, Status::NotRun);
+  EXPECT_TRUE(report.tasks.at(0).figures.empty());
+  EXPECT_TRUE(files_below(shop / "out").empty());
+}
+
 TEST(Run, DoesNotOpenMapsThatNothingReads) {
   const Workshop shop;
   paint_sky(shop);
