@@ -78,10 +78,10 @@ class LightReader {
     }
     SphereImage sphere = cube_image(std::move(faces), file.facts.node_aligned);
     const int n = sphere.size().width;
-    record_.notes.push_back(fmt::format("projection cube: the largest of {} levels of a {} texture, "
-                                        "faces of {} x {}, {}",
-                                        file.texture.levels.size(), facts.format, n, n,
-                                        faces_like_opengl));
+    record_.notes.push_back(
+        fmt::format("projection cube: the largest of {} levels of a {} texture, "
+                    "faces of {} x {}, {}",
+                    file.texture.levels.size(), facts.format, n, n, faces_like_opengl));
     return sphere;
   }
 
