@@ -157,9 +157,8 @@ Layers read_face(const Manifest& manifest, size_t level, size_t face) {
   const ByteView bytes = manifest.images[level * 6 + face];
   const auto format = known_format({}, bytes.first(std::min(bytes.size(), signature_length)));
   if (format != "png" && format != "webp") refuse("one of its images is neither PNG nor WebP");
-  const ImageFile file =
-      read_by_openimageio(*format, bytes,
-                          {.limits = {.max_texels = edge * edge, .max_channels = 4}});
+  const ImageFile file = read_by_openimageio(
+      *format, bytes, {.limits = {.max_texels = edge * edge, .max_channels = 4}});
   const Size size = file.image.size;
   if (size.width != edge || size.height != edge || file.image.layers.size() < 3) {
     refuse(fmt::format("an image of {} x {} texels and {} channels, expected {} x {} and RGBD",
