@@ -10,6 +10,7 @@
 #include "kiln/light/filter_error.h"
 #include "kiln/light/source.h"
 #include "kiln/light/turn.h"
+#include "light_filter.h"
 #include "light_product.h"
 
 namespace kiln {
@@ -49,18 +50,6 @@ std::vector<Layers> average(const Light& light, const SphereGrid& grid) {
                      : average_over_texels(light.latlong, grid);
 }
 
-// Point masses that are spread leave a little below zero beside a sun.
-void clip_below_zero(std::vector<Layers>& images) {
-  for (Layers& image : images) {
-    for (Layer& layer : image.layers) {
-      for (int y = 0; y < image.size.height; ++y) {
-        float* row = layer.plane.row(y);
-        for (int x = 0; x < image.size.width; ++x) row[x] = std::max(row[x], 0.0f);
-      }
-    }
-  }
-}
-
 Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
   Computed computed;
   computed.mean_radiance = mean_radiance(light.masses());
@@ -68,12 +57,7 @@ Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
       project_sh(light.masses(), std::max(2, recipe.sh_order), recipe.axes, light.rotate_deg);
   computed.shader = scaled_for_shaders(
       irradiance_over_pi(windowed(up_to(2, computed.harmonics), recipe.sh_window)));
-  const Prefilter prefilter(light.masses(), lobes_of(recipe));
-  const auto filter = [&](const Lobe& lobe, const SphereGrid& grid) {
-    std::vector<Layers> images = prefilter.filter(lobe, grid);
-    if (light.spread && light.fixed.negative == 0) clip_below_zero(images);
-    return FilteredLevel{lobe, grid, std::move(images)};
-  };
+  const LightFilter filter(light, lobes_of(recipe));
   std::vector<FilteredLevel> filtered;
   for (size_t level = 0; level < recipe.plan.sizes.size(); ++level) {
     const SphereGrid grid = recipe.grid(recipe.plan.sizes[level], light.rotate_deg);
@@ -82,14 +66,13 @@ Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
       computed.specular.push_back(average(light, grid));
       continue;
     }
-    filtered.push_back(filter(recipe.lobe(square(roughness)), grid));
+    filtered.push_back(filter.filter(recipe.lobe(square(roughness)), grid));
     computed.specular.push_back(filtered.back().images);
   }
   const SphereGrid grid = recipe.grid(irradiance_size, light.rotate_deg);
-  filtered.push_back(filter(Lobe{}, grid));
+  filtered.push_back(filter.filter(Lobe{}, grid));
   computed.irradiance = filtered.back().images;
-  std::vector<FilterError> errors =
-      filter_errors(prefilter, filtered, luminance(computed.mean_radiance));
+  std::vector<FilterError> errors = filter.errors(filtered, luminance(computed.mean_radiance));
   computed.irradiance_error = errors.back();
   errors.pop_back();
   for (const double roughness : recipe.plan.roughness) {

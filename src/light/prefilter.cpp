@@ -212,19 +212,27 @@ struct Azimuths {
   }
 };
 
-// Texels [begin, end) of a row, R G B and the solid angle.
-void take_row(const ColorPlanes& source, const Azimuths& azimuths, int y, int begin, int end,
+/// A source and, where it has them, the point masses of the constant 1.
+struct Weighed {
+  const ColorPlanes& colors;
+  const Plane* weights;
+};
+
+// Texels [begin, end) of a row, R G B and what the constant 1 weighs.
+void take_row(const Weighed& source, const Azimuths& azimuths, int y, int begin, int end,
               PointMasses& masses) {
-  const double theta = pi * (y + 0.5) / source.size.height;
+  const Size size = source.colors.size;
+  const double theta = pi * (y + 0.5) / size.height;
   const double sine = std::sin(theta), cosine = std::cos(theta);
-  const double solid_angle = latlong_texel_solid_angle(source.size, y);
+  const double solid_angle = latlong_texel_solid_angle(size, y);
   masses.reset(static_cast<size_t>(end - begin));
   for (int x = begin; x < end; ++x) {
     const auto at = static_cast<size_t>(x);
-    const Vec3<double> power = source.at(x, y) * solid_angle;
+    const Vec3<double> power = source.colors.at(x, y) * solid_angle;
+    const double one = source.weights ? source.weights->at(x, y) * solid_angle : solid_angle;
     masses.set(static_cast<size_t>(x - begin),
                {-azimuths.sine[at] * sine, cosine, azimuths.cosine[at] * sine},
-               {power.x, power.y, power.z, solid_angle});
+               {power.x, power.y, power.z, one});
   }
 }
 
@@ -267,24 +275,27 @@ void add_stretch(const LobeProbe& probe, Size size, const Stretch& stretch,
 
 std::vector<std::vector<Vec3<double>>> Prefilter::brute_force(
     const std::vector<LobeProbe>& probes) const {
-  const ColorPlanes& source = expanded_->source;
-  const Azimuths azimuths(source.size.width);
-  const int texels_at_once = std::clamp(source.size.width / 16, 64, 1024);
+  const Size size = expanded_->source.size;
+  const bool weighed = expanded_->of_weights && expanded_->weights.size == size;
+  const Weighed source{expanded_->source,
+                       weighed ? &expanded_->weights.layers.front().plane : nullptr};
+  const Azimuths azimuths(size.width);
+  const int texels_at_once = std::clamp(size.width / 16, 64, 1024);
   size_t count = 0;
   for (const LobeProbe& probe : probes) count += probe.directions.size();
   const auto add_row = [&](int y, std::vector<double>& row) {
     PointMasses masses;
-    for (int begin = 0; begin < source.size.width; begin += texels_at_once) {
-      const Stretch stretch{y, begin, std::min(begin + texels_at_once, source.size.width)};
+    for (int begin = 0; begin < size.width; begin += texels_at_once) {
+      const Stretch stretch{y, begin, std::min(begin + texels_at_once, size.width)};
       take_row(source, azimuths, y, stretch.begin, stretch.end, masses);
       std::span<double> rest(row);
       for (const LobeProbe& probe : probes) {
-        add_stretch(probe, source.size, stretch, masses, rest);
+        add_stretch(probe, size, stretch, masses, rest);
         rest = rest.subspan(4 * probe.directions.size());
       }
     }
   };
-  const auto sums = sum_rows(source.size.height, static_cast<int>(4 * count), add_row);
+  const auto sums = sum_rows(size.height, static_cast<int>(4 * count), add_row);
   std::vector<std::vector<Vec3<double>>> filtered(probes.size());
   size_t at = 0;
   for (size_t p = 0; p < probes.size(); ++p) {

@@ -74,6 +74,8 @@ class LightReader {
   std::optional<SphereImage> read_texture_cube(const FileFacts& facts) {
     TextureFile file = read_texture(environment_.path);
     if (!file.texture.is_cube()) return std::nullopt;
+    require_faces_wanted("a cube texture");
+    note(file.facts, "");
     std::vector<Layers> faces;
     for (Layers& face : file.texture.levels.front()) {
       const std::vector<std::string> channels = color_channels(facts.channels);
@@ -83,20 +85,25 @@ class LightReader {
     SphereImage sphere = cube_image(std::move(faces), file.facts.node_aligned);
     const int n = sphere.size().width;
     record_.notes.push_back(
-        fmt::format("projection cube: the largest of {} levels of a {} texture, "
+        fmt::format("projection cube-faces: the largest of {} levels of a {} texture, "
                     "faces of {} x {}, {}",
                     file.texture.levels.size(), facts.format, n, n, faces_like_opengl));
     return sphere;
   }
 
-  SphereImage read_faces(const FaceFiles& files) {
-    if (environment_.projection != Arrangement::Auto &&
-        environment_.projection != Arrangement::CubeFaces) {
-      throw Error(
-          Fault::Input,
-          fmt::format("{}: six files, expected one (projection {})", environment_.path.string(),
-                      arrangement_names[static_cast<size_t>(environment_.projection)]));
+  // That the projection asked for, if any, is that of faces.
+  void require_faces_wanted(std::string_view found) const {
+    if (environment_.projection == Arrangement::Auto ||
+        environment_.projection == Arrangement::CubeFaces) {
+      return;
     }
+    throw Error(Fault::Input,
+                fmt::format("{}, expected one image (projection {})", found,
+                            arrangement_names[static_cast<size_t>(environment_.projection)]));
+  }
+
+  SphereImage read_faces(const FaceFiles& files) {
+    with_context(environment_.path.string(), [&] { require_faces_wanted("six files"); });
     std::vector<Layers> faces;
     bool node_aligned = true;
     for (const fs::path& path : files.paths) {

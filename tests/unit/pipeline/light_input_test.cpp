@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kiln/image/sphere_image.h"
+#include "kiln/io/texture_file.h"
 #include "kiln/pipeline/run.h"
 #include "support/workshop.h"
 
@@ -141,6 +142,15 @@ TEST_F(LightInput, IsTheSameSkyFromEveryProjection) {
   expect_the_sky("{ path: 'long/a.<FACE>.exr' }", "posx negx posy negy posz negz are");
 }
 
+TEST_F(LightInput, MayBeACubeTextureOfAnyContainer) {
+  for (const char* name : {"a.ktx2", "a.ktx", "a.dds"}) {
+    write_texture(shop / name, {{sky_cube(32).images}}, {.type = PixelType::Float});
+    expect_the_sky(name, "projection cube-faces");
+    EXPECT_THAT(fault_of(bake(shop, std::string("{ path: ") + name + ", projection: latlong }")),
+                HasSubstr("a cube texture, expected one image"));
+  }
+}
+
 TEST_F(LightInput, MayBeMirroredAndZUp) {
   const auto mirrored = [](const Vec3<double>& d) { return sky({-d.x, d.y, d.z}); };
   const auto z_up = [](const Vec3<double>& d) { return sky({d.x, d.z, -d.y}); };
@@ -157,8 +167,8 @@ TEST_F(LightInput, MayBeMirroredAndZUp) {
 TEST_F(LightInput, IsDescribedInWhatIsMadeOfIt) {
   bake(shop, "{ path: latlong.exr, rotate: 30 }");
   const auto env = nlohmann::json::parse(text_of(shop / "out/env/env.json"));
-  EXPECT_THAT(env["notes"].dump(), HasSubstr("projection latlong: 64 x 32 (2:1)"));
-  EXPECT_THAT(env["notes"].dump(), HasSubstr("rotate 30"));
+  EXPECT_THAT(env["source"].dump(), HasSubstr("projection latlong: 64 x 32 (2:1)"));
+  EXPECT_THAT(env["source"].dump(), HasSubstr("rotate 30"));
 }
 
 TEST_F(LightInput, ThatFitsNothingIsRefused) {
@@ -193,7 +203,7 @@ TEST_F(LightInput, RefusesAFolderOfSeveralSetsAndFacesThatDoNotFit) {
   EXPECT_THAT(fault_of(bake(shop, "{ path: 'six/b_<FACE>.exr' }")),
               HasSubstr("face pz is 5 x 5, expected 4 x 4"));
   EXPECT_THAT(fault_of(bake(shop, "{ path: 'six/a_<FACE>.exr', projection: latlong }")),
-              HasSubstr("six files, expected one"));
+              HasSubstr("six files, expected one image"));
 }
 
 TEST_F(LightInput, ThatIsNotFiniteIsRepairedOrRefusedAsAsked) {
