@@ -173,10 +173,7 @@ std::vector<Layers> Prefilter::filter(const Lobe& lobe, const SphereGrid& grid) 
   const SphereField field = convolve(expanded_->expansion, expanded_->columns, kernel);
   const auto scale = static_cast<float>(1 / kernel.integral);
   const Size extent = grid.image_size();
-  std::vector<Layers> images;
-  for (int i = 0; i < grid.images(); ++i) {
-    images.push_back(make_layers(extent, {"R", "G", "B"}));
-  }
+  std::vector<Layers> images = blank_images(grid);
   for_rows(grid.images() * extent.height, [&](int row) {
     const int image = row / extent.height, y = row % extent.height;
     std::vector<Vec3<double>> directions;

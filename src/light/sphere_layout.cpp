@@ -74,6 +74,11 @@ std::vector<double> face_solid_angles(int n) {
 
 }  // namespace
 
+std::vector<Layers> blank_images(const SphereGrid& grid) {
+  return std::vector<Layers>(static_cast<size_t>(grid.images()),
+                             make_layers(grid.image_size(), {"R", "G", "B"}));
+}
+
 std::vector<double> solid_angles(const SphereGrid& grid) {
   const Size size = grid.image_size();
   if (grid.layout == SphereLayout::Cube) return face_solid_angles(size.width);

@@ -327,10 +327,7 @@ void average_images(const Layers& latlong, const SphereGrid& grid, std::vector<L
 }  // namespace
 
 std::vector<Layers> average_over_texels(const Layers& latlong, const SphereGrid& grid) {
-  std::vector<Layers> images;
-  for (int i = 0; i < grid.images(); ++i) {
-    images.push_back(make_layers(grid.image_size(), {"R", "G", "B"}));
-  }
+  std::vector<Layers> images = blank_images(grid);
   if (grid.layout == SphereLayout::LatLong && !grid.at_nodes) {
     average_over_latlong(color_planes(latlong), grid.rotate_deg / 360, images.front());
   } else {

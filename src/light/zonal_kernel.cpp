@@ -75,6 +75,7 @@ std::vector<double> integrate_bands(const Lobe& lobe, int order) {
     add_panel(load_panel(cosine.data() + i), load_panel(terms.data() + i), sums);
   }
   std::vector<double> bands;
+  bands.reserve(sums.size());
   for (const WideDouble& sum : sums) bands.push_back(xsimd::hadd(sum));
   return bands;
 }

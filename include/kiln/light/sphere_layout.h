@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kiln/image/layers.h"
 #include "kiln/image/projection.h"
 
 namespace kiln {
@@ -40,6 +41,9 @@ Vec3<double> direction_of(SphereLayout layout, int image, Vec2<double> uv);
 /// The directions of all samples in row y of an image, or of a face.
 void row_directions(const SphereGrid& grid, int image, int y,
                     std::vector<Vec3<double>>& directions);
+
+/// The images of a grid, planes R G B, dark.
+std::vector<Layers> blank_images(const SphereGrid& grid);
 
 /// Exact solid angles of the texels of an image, or of any face, row by row [sr]; of a grid at
 /// nodes as if it had texel centres.
