@@ -172,6 +172,7 @@ std::vector<Layers> Prefilter::filter(const Lobe& lobe, const SphereGrid& grid) 
   const auto scale = static_cast<float>(1 / kernel.integral);
   const Size extent = grid.image_size();
   std::vector<Layers> images;
+  images.reserve(static_cast<size_t>(grid.images()));
   for (int i = 0; i < grid.images(); ++i) {
     images.push_back(make_layers(extent, {"R", "G", "B"}));
   }

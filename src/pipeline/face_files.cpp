@@ -117,8 +117,9 @@ Groups groups_in(const fs::path& folder) {
     const std::string extension = fs::path(file).extension().string();
     for_names([&](size_t naming, size_t face, std::string_view name) {
       if (!lower(stem).ends_with(name)) return;
-      const std::string before = stem.substr(0, stem.size() - name.size());
-      groups.add(before + std::string(placeholder) + extension, naming, face, file);
+      std::string pattern = stem.substr(0, stem.size() - name.size());
+      pattern.append(placeholder).append(extension);
+      groups.add(pattern, naming, face, file);
     });
   }
   return groups;
