@@ -28,13 +28,19 @@ Layers sky() {
   });
 }
 
+LightSettings prefiltered() {
+  LightSettings settings;
+  settings.prefiltered = true;
+  return settings;
+}
+
 struct Stage {
   Svbrdf material;
   LightMade light;
   std::shared_ptr<const AlbedoTable> albedo = make_albedo_table();
 
   explicit Stage(Size size)
-      : material(varied(size)), light(make_light(latlong_image(sky()), {.prefiltered = true})) {}
+      : material(varied(size)), light(make_light(latlong_image(sky()), prefiltered())) {}
 
   Ingredients ingredients() const {
     Ingredients i;

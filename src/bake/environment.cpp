@@ -30,7 +30,8 @@ struct Computed {
   std::vector<Layers> irradiance;
   FilterError irradiance_error;
   Vec3<double> mean_radiance;
-  std::array<Vec3<double>, 9> shader;  ///< irradiance over pi as shaders sum it, in engine's axes
+  SphericalHarmonics harmonics;        ///< of radiance, raw, in the engine's axes, order 2 or more
+  std::array<Vec3<double>, 9> shader;  ///< irradiance over pi as shaders sum it, likewise
 };
 
 std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
@@ -39,11 +40,6 @@ std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
     if (roughness > 0) lobes.push_back(recipe.lobe(square(roughness)));
   }
   return lobes;
-}
-
-SphericalHarmonics harmonics(const EnvironmentRecipe& recipe, const Light& light, int order) {
-  return windowed(project_sh(light.masses(), order, recipe.axes, light.rotate_deg),
-                  recipe.sh_window);
 }
 
 // Of a cube its own texels, where these can be kept.
@@ -57,7 +53,10 @@ std::vector<Layers> average(const Light& light, const SphereGrid& grid) {
 Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
   Computed computed;
   computed.mean_radiance = mean_radiance(light.masses());
-  computed.shader = scaled_for_shaders(irradiance_over_pi(harmonics(recipe, light, 2)));
+  computed.harmonics =
+      project_sh(light.masses(), std::max(2, recipe.sh_order), recipe.axes, light.rotate_deg);
+  computed.shader = scaled_for_shaders(
+      irradiance_over_pi(windowed(up_to(2, computed.harmonics), recipe.sh_window)));
   const LightFilter filter(light, lobes_of(recipe));
   std::vector<FilteredLevel> filtered;
   for (size_t level = 0; level < recipe.plan.sizes.size(); ++level) {
@@ -173,9 +172,9 @@ Json list_of(const Coefficients& coefficients) {
   return list;
 }
 
-Json describe_harmonics(const EnvironmentRecipe& recipe, const Light& light,
-                        const Computed& computed) {
-  const SphericalHarmonics radiance = harmonics(recipe, light, recipe.sh_order);
+Json describe_harmonics(const EnvironmentRecipe& recipe, const Computed& computed) {
+  const SphericalHarmonics radiance =
+      windowed(up_to(recipe.sh_order, computed.harmonics), recipe.sh_window);
   return {{"order", radiance.order},
           {"basis",
            "real, no Condon-Shortley sign, L1-1 ~ y, L10 ~ z, L11 ~ x; (l, m) at l * l + l + m"},
@@ -229,7 +228,7 @@ Json describe(const EnvironmentRecipe& recipe, const Light& light, const Compute
     for (const auto name : cube_face_names) json["faces"].push_back(std::string(name));
   }
   if (!recipe.preset.name.empty()) json["preset"] = recipe.preset.name;
-  json["source"] = light.notes;
+  json["notes"] = light.notes;
   json["mean_radiance"] = to_json(computed.mean_radiance);
   json["dominant_light"] = describe_dominant(recipe, light);
   json["fixed"] = {{"nan", light.fixed.nan},
@@ -282,7 +281,7 @@ Baked EnvironmentBake::bake(const Settings& settings, const Ingredients& ingredi
   Baked baked;
   baked.notes = recipe.preset.cautions;
   add_figures(recipe, computed, loss, baked);
-  add_text(baked, "sh", describe_harmonics(recipe, light, computed));
+  add_text(baked, "sh", describe_harmonics(recipe, computed));
   add_text(baked, "env", describe(recipe, light, computed, loss));
   const Files files(recipe, computed);
   if (!recipe.preset.skybox.empty()) {

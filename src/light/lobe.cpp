@@ -66,24 +66,22 @@ std::vector<double> lobe_values(const Lobe& lobe, std::span<const double> s) {
   return values;
 }
 
-void PointMasses::clear() {
+void PointMasses::reset(size_t count) {
+  constexpr size_t lanes = lane_count<WideFloat>;
+  const size_t padded = (count + lanes - 1) / lanes * lanes;
   for (auto* family : {&direction, &rest}) {
-    for (std::vector<float>& numbers : *family) numbers.clear();
+    for (std::vector<float>& numbers : *family) numbers.assign(padded, 0.0f);
   }
-  for (std::vector<float>& numbers : power) numbers.clear();
+  for (std::vector<float>& numbers : power) numbers.assign(padded, 0.0f);
 }
 
-void PointMasses::add(const Vec3<double>& toward, const std::array<double, 4>& of) {
+void PointMasses::set(size_t at, const Vec3<double>& toward, const std::array<double, 4>& of) {
   const std::array<double, 3> coordinates{toward.x, toward.y, toward.z};
   for (size_t a = 0; a < 3; ++a) {
-    direction[a].push_back(static_cast<float>(coordinates[a]));
-    rest[a].push_back(rest_of(coordinates[a]));
+    direction[a][at] = static_cast<float>(coordinates[a]);
+    rest[a][at] = rest_of(coordinates[a]);
   }
-  for (size_t c = 0; c < 4; ++c) power[c].push_back(static_cast<float>(of[c]));
-}
-
-void PointMasses::pad() {
-  while (size() % static_cast<size_t>(lane_count<WideFloat>) != 0) add({0, 1, 0}, {});
+  for (size_t c = 0; c < 4; ++c) power[c][at] = static_cast<float>(of[c]);
 }
 
 void add_masses(const Lobe& lobe, const PointMasses& masses,

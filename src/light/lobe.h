@@ -45,9 +45,9 @@ struct PointMasses {
   std::array<std::vector<float>, 4> power;
 
   size_t size() const { return direction[0].size(); }
-  void clear();
-  void add(const Vec3<double>& toward, const std::array<double, 4>& of);
-  void pad();
+  /// Makes room for so many, padding included, without power.
+  void reset(size_t count);
+  void set(size_t at, const Vec3<double>& toward, const std::array<double, 4>& of);
 };
 
 using MassSums = std::array<float, 4>;

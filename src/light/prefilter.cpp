@@ -31,11 +31,12 @@ constexpr int highest_order = 1800;
 /// through the cut of the expansion, ring visibly around itself.
 PointMasses masses_of(Size size, const std::vector<HotTexel>& texels) {
   PointMasses masses;
-  for (const HotTexel& texel : texels) {
+  masses.reset(texels.size());
+  for (size_t i = 0; i < texels.size(); ++i) {
+    const HotTexel& texel = texels[i];
     const Vec2<double> uv{(texel.x + 0.5) / size.width, (texel.y + 0.5) / size.height};
-    masses.add(latlong_to_direction(uv), {texel.power[0], texel.power[1], texel.power[2], 0});
+    masses.set(i, latlong_to_direction(uv), {texel.power[0], texel.power[1], texel.power[2], 0});
   }
-  masses.pad();
   return masses;
 }
 
@@ -224,15 +225,15 @@ void take_row(const Weighed& source, const Azimuths& azimuths, int y, int begin,
   const double theta = pi * (y + 0.5) / size.height;
   const double sine = std::sin(theta), cosine = std::cos(theta);
   const double solid_angle = latlong_texel_solid_angle(size, y);
-  masses.clear();
+  masses.reset(static_cast<size_t>(end - begin));
   for (int x = begin; x < end; ++x) {
     const auto at = static_cast<size_t>(x);
     const Vec3<double> power = source.colors.at(x, y) * solid_angle;
     const double one = source.weights ? source.weights->at(x, y) * solid_angle : solid_angle;
-    masses.add({-azimuths.sine[at] * sine, cosine, azimuths.cosine[at] * sine},
+    masses.set(static_cast<size_t>(x - begin),
+               {-azimuths.sine[at] * sine, cosine, azimuths.cosine[at] * sine},
                {power.x, power.y, power.z, one});
   }
-  masses.pad();
 }
 
 }  // namespace

@@ -139,6 +139,11 @@ SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes
   return result;
 }
 
+SphericalHarmonics up_to(int order, const SphericalHarmonics& sum) {
+  const auto end = sum.coefficients.begin() + (order + 1) * (order + 1);
+  return {order, {sum.coefficients.begin(), end}};
+}
+
 SphericalHarmonics windowed(const SphericalHarmonics& sum, ShWindow window) {
   SphericalHarmonics result = sum;
   for (int l = 1; l <= sum.order && window != ShWindow::None; ++l) {

@@ -45,7 +45,7 @@ class LightReader {
 
   SphereImage read() {
     if (const auto files = face_files(environment_.path)) return read_faces(*files);
-    return with_context(environment_.path.string(), [&] { return read_one(); });
+    return read_one();
   }
 
  private:
@@ -55,9 +55,13 @@ class LightReader {
       if (auto sphere = read_texture_cube(facts)) return *std::move(sphere);
     }
     const ImageMarks marks{facts.size, facts.envmap, facts.node_aligned};
-    const ArrangementChoice choice = choose_arrangement(environment_.projection, marks);
+    const std::string path = environment_.path.string();
+    const ArrangementChoice choice =
+        with_context(path, [&] { return choose_arrangement(environment_.projection, marks); });
     note(facts, "");
-    SphereImage sphere = arranged(read_color(environment_.path, facts), choice.arrangement, marks);
+    Layers image = read_color(environment_.path, facts);
+    SphereImage sphere =
+        with_context(path, [&] { return arranged(std::move(image), choice.arrangement, marks); });
     record_.notes.push_back(described(sphere, choice, marks));
     return sphere;
   }

@@ -36,6 +36,9 @@ SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes
 ///         Environment Maps", eq. 8 and 9
 SphericalHarmonics irradiance_over_pi(const SphericalHarmonics& radiance);
 
+/// The bands up to that order, which the sum has.
+SphericalHarmonics up_to(int order, const SphericalHarmonics& sum);
+
 /// What tames the ringing of a sun: band l is damped,
 /// Hann by (1 + cos(pi l / w)) / 2, Lanczos by sin(pi l / w) / (pi l / w), with w = order + 1.
 enum class ShWindow { None, Hann, Lanczos };

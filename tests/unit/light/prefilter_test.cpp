@@ -8,6 +8,7 @@
 #include "kiln/brdf/models.h"
 #include "kiln/core/error.h"
 #include "kiln/light/filter_error.h"
+#include "kiln/light/source.h"
 
 namespace kiln {
 namespace {
@@ -144,6 +145,80 @@ TEST(Prefilter, KeepsNegativeRadianceLinear) {
       for (int x = 0; x < 16; ++x) {
         ASSERT_NEAR(texels.layers[0].plane.at(x, y) + 1, texels.layers[1].plane.at(x, y), 1e-5);
         ASSERT_NEAR(1 - texels.layers[0].plane.at(x, y), texels.layers[2].plane.at(x, y), 1e-5);
+      }
+    }
+  }
+}
+
+TEST(Prefilter, ShowsTheTurnedEnvironmentInATurnedGrid) {
+  // What was at +Z is seen at +X: that face is the other, texel for texel.
+  const Layers image = test::sunny_environment({256, 128}, 100);
+  const Lobe lobe{.alpha = 0.1};
+  const Prefilter prefilter(image, {lobe});
+  const auto filtered = [&](double rotate_deg) {
+    return prefilter.filter(lobe, {.size = 16, .rotate_deg = rotate_deg});
+  };
+  const auto averaged = [&](double rotate_deg) {
+    return average_over_texels(image, {.size = 16, .rotate_deg = rotate_deg});
+  };
+  const auto expect_turned = [](const std::vector<Layers>& still,
+                                const std::vector<Layers>& turned) {
+    const Plane& was = still[static_cast<size_t>(CubeFace::pz)].layers[0].plane;
+    const Plane& is = turned[static_cast<size_t>(CubeFace::px)].layers[0].plane;
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x) ASSERT_NEAR(is.at(x, y), was.at(x, y), 1e-4 * was.at(x, y));
+    }
+  };
+  expect_turned(filtered(0), filtered(90));
+  expect_turned(averaged(0), averaged(90));
+}
+
+TEST(Prefilter, OfACubesPointMassesIsNearItsOwnTexelsByBruteForce) {
+  std::vector<Layers> faces;
+  for (int face = 0; face < 6; ++face) {
+    faces.push_back(make_layers({32, 32}, {"R", "G", "B"}));
+    for (Layer& layer : faces.back().layers) {
+      for (int k = 0; k < 32 * 32; ++k) {
+        layer.plane.at(k % 32, k / 32) =
+            static_cast<float>(test::random_unit(9, static_cast<std::uint32_t>(1024 * face + k)) +
+                               (k == 300 ? 50 : 0));
+      }
+    }
+  }
+  const Layers masses = point_masses_of(cube_image(faces));
+  const Lobe lobe{.alpha = 0.3};
+  const auto found = Prefilter(masses, {lobe}).filter(lobe, {.size = 8});
+  for (int face = 0; face < 6; ++face) {
+    const Vec3<double> d = direction_of(SphereLayout::Cube, face, {2.5 / 8, 5.5 / 8});
+    double sum = 0, weights = 0;
+    for (int k = 0; k < 6 * 1024; ++k) {
+      const int x = k % 32, y = k / 32 % 32, from = k / 1024;
+      const Vec3<double> w =
+          direction_of(SphereLayout::Cube, from, {(x + 0.5) / 32, (y + 0.5) / 32});
+      const double weight = lobe_at(Ggx<double>::isotropic(lobe.alpha), dot(d - w, d - w) / 4) *
+                            cube_texel_solid_angle(32, x, y);
+      sum += weight * faces[static_cast<size_t>(from)].layers[0].plane.at(x, y);
+      weights += weight;
+    }
+    EXPECT_NEAR(found[static_cast<size_t>(face)].layers[0].plane.at(2, 5), sum / weights,
+                2e-4 * sum / weights);
+  }
+}
+
+TEST(Prefilter, KeepsTheConstantOfACubesPointMasses) {
+  std::vector<Layers> faces(6, make_layers({24, 24}, {"R", "G", "B"}));
+  for (Layers& face : faces) {
+    for (Layer& layer : face.layers) layer.plane = Plane(face.size, 0.7f);
+  }
+  const Layers masses = point_masses_of(cube_image(faces));
+  const Lobe sharp{.alpha = 0.05}, wide{.alpha = 1};
+  const Prefilter prefilter(masses, {sharp, wide});
+  for (const Lobe& lobe : {sharp, wide}) {
+    for (const Layers& image : prefilter.filter(lobe, {.size = 16})) {
+      for (int y = 0; y < 16; ++y) {
+        for (const float value : image.layers[2].plane.texels_of_row(y)) {
+          ASSERT_NEAR(value, 0.7, 2e-6);
+        }
       }
     }
   }
