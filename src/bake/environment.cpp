@@ -228,7 +228,7 @@ Json describe(const EnvironmentRecipe& recipe, const Light& light, const Compute
     for (const auto name : cube_face_names) json["faces"].push_back(std::string(name));
   }
   if (!recipe.preset.name.empty()) json["preset"] = recipe.preset.name;
-  json["notes"] = light.notes;
+  json["source"] = light.notes;
   json["mean_radiance"] = to_json(computed.mean_radiance);
   json["dominant_light"] = describe_dominant(recipe, light);
   json["fixed"] = {{"nan", light.fixed.nan},

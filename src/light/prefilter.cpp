@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include "finer.h"
 #include "harmonic_synthesis.h"
@@ -236,30 +237,58 @@ void take_row(const Weighed& source, const Azimuths& azimuths, int y, int begin,
   }
 }
 
+/// Texels of one row, few enough that their sum in float keeps its digits.
+struct Stretch {
+  int y, begin, end;
+};
+
+// Whether the light of a stretch is above the horizon of d, or may be.
+bool may_be_seen(const Vec3<double>& d, Size size, const Stretch& stretch) {
+  const double middle = 0.5 * (stretch.begin + stretch.end) / size.width;
+  const Vec3<double> toward =
+      latlong_to_direction(Vec2<double>{middle, (stretch.y + 0.5) / size.height});
+  const double half_rad = pi * (stretch.end - stretch.begin) / size.width;
+  return dot(d, toward) > -std::sin(std::min(half_rad, 0.5 * pi));
+}
+
+// Adds what a probe finds in a stretch: R, G, B and weight for each of its directions.
+void add_stretch(const LobeProbe& probe, Size size, const Stretch& stretch,
+                 const PointMasses& masses, std::span<double> sums) {
+  std::vector<Vec3<double>> seen;
+  std::vector<size_t> which;
+  for (size_t i = 0; i < probe.directions.size(); ++i) {
+    if (!may_be_seen(probe.directions[i], size, stretch)) continue;
+    seen.push_back(probe.directions[i]);
+    which.push_back(i);
+  }
+  std::vector<MassSums> found(seen.size(), MassSums{});
+  add_masses(probe.lobe, masses, seen, found);
+  for (size_t k = 0; k < found.size(); ++k) {
+    for (size_t c = 0; c < 4; ++c) sums[4 * which[k] + c] += found[k][c];
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<Vec3<double>>> Prefilter::brute_force(
     const std::vector<LobeProbe>& probes) const {
-  constexpr int texels_at_once = 1024;  // so few that their sum in float keeps its digits
   const Size size = expanded_->source.size;
   const bool weighed = expanded_->of_weights && expanded_->weights.size == size;
   const Weighed source{expanded_->source,
                        weighed ? &expanded_->weights.layers.front().plane : nullptr};
   const Azimuths azimuths(size.width);
+  const int texels_at_once = std::clamp(size.width / 16, 64, 1024);
   size_t count = 0;
   for (const LobeProbe& probe : probes) count += probe.directions.size();
   const auto add_row = [&](int y, std::vector<double>& row) {
     PointMasses masses;
     for (int begin = 0; begin < size.width; begin += texels_at_once) {
-      const int end = std::min(begin + texels_at_once, size.width);
-      take_row(source, azimuths, y, begin, end, masses);
-      size_t at = 0;
+      const Stretch stretch{y, begin, std::min(begin + texels_at_once, size.width)};
+      take_row(source, azimuths, y, stretch.begin, stretch.end, masses);
+      std::span<double> rest(row);
       for (const LobeProbe& probe : probes) {
-        std::vector<MassSums> found(probe.directions.size(), MassSums{});
-        add_masses(probe.lobe, masses, probe.directions, found);
-        for (const MassSums& sums : found) {
-          for (const float sum : sums) row[at++] += sum;
-        }
+        add_stretch(probe, size, stretch, masses, rest);
+        rest = rest.subspan(4 * probe.directions.size());
       }
     }
   };

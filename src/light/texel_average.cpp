@@ -164,7 +164,7 @@ LatLongTexels within_limit(const Layers& latlong, const PowerLimit& limit,
 Points make_points(const Layers& latlong, const PowerLimit& limit, const std::vector<HotTexel>& hot,
                    double source_texels) {
   const int times = reduction_for(latlong.size, source_texels);
-  const int count = std::max(1, static_cast<int>(std::ceil(1 + 1.5 * source_texels / times)));
+  const int count = std::max(1, static_cast<int>(std::ceil(1.5 * source_texels / times)));
   if (times == 1) return {within_limit(latlong, limit, hot), count};
   const Layers coarser = reduced(color_planes(latlong), limit, times);
   return {LatLongTexels(coarser, coarser.size.width, Pole::AcrossByHalfATurn), count};

@@ -167,8 +167,8 @@ TEST_F(LightInput, MayBeMirroredAndZUp) {
 TEST_F(LightInput, IsDescribedInWhatIsMadeOfIt) {
   bake(shop, "{ path: latlong.exr, rotate: 30 }");
   const auto env = nlohmann::json::parse(text_of(shop / "out/env/env.json"));
-  EXPECT_THAT(env["notes"].dump(), HasSubstr("projection latlong: 64 x 32 (2:1)"));
-  EXPECT_THAT(env["notes"].dump(), HasSubstr("rotate 30"));
+  EXPECT_THAT(env["source"].dump(), HasSubstr("projection latlong: 64 x 32 (2:1)"));
+  EXPECT_THAT(env["source"].dump(), HasSubstr("rotate 30"));
 }
 
 TEST_F(LightInput, ThatFitsNothingIsRefused) {
