@@ -110,9 +110,11 @@ SphereImage octahedral_image(Layers image) {
 
 SphereImage rearranged(SphereImage cube, CubePoint (*from)(const CubePoint&)) {
   std::vector<FaceTurn> turns;
+  turns.reserve(6);
   for (int face = 0; face < 6; ++face) turns.push_back(turn_of(cube.size().width, face, from));
   for (size_t layer = 0; layer < cube.images[0].layers.size(); ++layer) {
     std::vector<Plane> planes;
+    planes.reserve(turns.size());
     for (const FaceTurn& turn : turns) {
       planes.push_back(turned(cube.images[turn.face].layers[layer].plane, turn));
     }

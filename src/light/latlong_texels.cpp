@@ -10,7 +10,7 @@
 namespace kiln {
 
 LatLongTexels::LatLongTexels(const Layers& image, int columns, Pole pole)
-    : size_{columns, image.size.height}, pole_(pole), stride_(columns + 2) {
+    : size_{columns, image.size.height}, stride_(columns + 2) {
   const int height = size_.height;
   if (4LL * stride_ * (height + 2) > std::numeric_limits<std::int32_t>::max()) {
     throw Error(Fault::Input, "the environment image is " + std::to_string(image.size.width) + "x" +
@@ -19,29 +19,9 @@ LatLongTexels::LatLongTexels(const Layers& image, int columns, Pole pole)
   }
   texels_.resize(static_cast<size_t>(stride_) * static_cast<size_t>(height + 2) * 4);
   for_rows(height, [&](int y) { fill_row(image, y, y + 1, 0); });
-  fill_row(image, 0, 0, turn());
-  fill_row(image, height - 1, height + 1, turn());
-}
-
-void LatLongTexels::set_color(int x, int y, const Vec3<float>& color) {
-  const auto set = [&](int column, int row) {
-    float* texel =
-        texels_.data() +
-        (static_cast<size_t>(row) * static_cast<size_t>(stride_) + static_cast<size_t>(column)) * 4;
-    texel[0] = color.x;
-    texel[1] = color.y;
-    texel[2] = color.z;
-  };
-  // Its column in a row, and that beyond the other edge where it is the first or the last.
-  const auto set_in_row = [&](int column, int row) {
-    set(column + 1, row);
-    if (column == 0) set(size_.width + 1, row);
-    if (column == size_.width - 1) set(0, row);
-  };
-  const int across = (x + size_.width - turn()) % size_.width;
-  set_in_row(x, y + 1);
-  if (y == 0) set_in_row(across, 0);
-  if (y == size_.height - 1) set_in_row(across, size_.height + 1);
+  const int turn = pole == Pole::AcrossByHalfATurn ? columns / 2 : 0;
+  fill_row(image, 0, 0, turn);
+  fill_row(image, height - 1, height + 1, turn);
 }
 
 void LatLongTexels::set_fourth(int x, int y, float value) {

@@ -13,6 +13,7 @@ namespace {
 constexpr int rows_at_once = 16;
 // Strips of a side face between two meridians, in each of which edges between texels are level.
 constexpr int least_strips = 256;
+constexpr int most_strips_per_column = 16;
 
 /// Azimuth of the middle of each side face, as u of the lat-long image [turn]; columns run
 /// toward smaller u.
@@ -87,19 +88,10 @@ Overlap overlap_of(int width, double from_u, double to_u) {
   return overlap;
 }
 
-/// Source rows that are seen, and the most radiance that counts in each, by colour.
+/// A source and the rows of it that are seen.
 struct Source {
   const ColorPlanes& image;
   Band band;
-  std::array<std::vector<float>, 3> most;
-
-  Source(const ColorPlanes& image_in, int skipped, const PowerLimit& limit)
-      : image(image_in), band(image_in.size.height, skipped) {
-    for (int row = 0; row < band.count; ++row) {
-      const double solid_angle = latlong_texel_solid_angle(image.size, band.first + row);
-      for (size_t c = 0; c < 3; ++c) most[c].push_back(limit.radiance(c, solid_angle));
-    }
-  }
 };
 
 /// What lies between two meridians: the edges of the texels there.
@@ -134,11 +126,9 @@ StripRows seen_in(const Source& source, const std::vector<Strip>& strips) {
       float* to = seen.values[c].data() + strip * seen.rows;
       for (int row = first; row < end; ++row) {
         const float* texels = source.image.planes[c]->row(source.band.first + row);
-        const float most = source.most[c][static_cast<size_t>(row)];
         float value = 0;
         for (size_t i = 0; i < overlaps[strip].shares.size(); ++i) {
-          const float texel = texels[overlaps[strip].columns[i]];
-          value = fma(overlaps[strip].shares[i], std::clamp(texel, -most, most), value);
+          value = fma(overlaps[strip].shares[i], texels[overlaps[strip].columns[i]], value);
         }
         to[row] = value;
       }
@@ -213,8 +203,11 @@ struct SideStrips {
   std::vector<std::vector<Edge>> edges;  ///< of each strip
 };
 
-SideStrips strips_of_side(const Band& band, int size) {
-  const int count = size * std::clamp(least_strips / size, 1, 8);
+// As narrow as the source's columns: then what the edge to the top and bottom faces cuts off a
+// texel is right, though it is level in each strip.
+SideStrips strips_of_side(const Band& band, int size, int source_columns) {
+  const int wanted = std::max(least_strips, source_columns / 4);
+  const int count = size * std::clamp((wanted + size - 1) / size, 1, most_strips_per_column);
   SideStrips strips;
   for (int i = 0; i <= count; ++i) strips.azimuths_rad.push_back(std::atan(2.0 * i / count - 1));
   strips.edges.resize(static_cast<size_t>(count));
@@ -228,11 +221,10 @@ SideStrips strips_of_side(const Band& band, int size) {
 
 }  // namespace
 
-void average_over_sides(const ColorPlanes& source, const PowerLimit& limit, double turns,
-                        std::vector<Layers>& faces) {
+void average_over_sides(const ColorPlanes& source, double turns, std::vector<Layers>& faces) {
   const int size = faces.front().size.width;
-  const Source seen(source, source.size.height / 4, limit);
-  const SideStrips strips = strips_of_side(seen.band, size);
+  const Source seen{source, Band(source.size.height, source.size.height / 4)};
+  const SideStrips strips = strips_of_side(seen.band, size, source.size.width);
   Columns columns;
   for (const Side& side : sides) {
     for (int x = 0; x < size; ++x) {
@@ -249,7 +241,7 @@ void average_over_sides(const ColorPlanes& source, const PowerLimit& limit, doub
 
 void average_over_latlong(const ColorPlanes& source, double turns, Layers& image) {
   const Size size = image.size;
-  const Source seen(source, 0, {{INFINITY, INFINITY, INFINITY}});
+  const Source seen{source, Band(source.size.height, 0)};
   std::vector<double> heights;
   for (int j = 0; j <= size.height; ++j) heights.push_back(std::cos(pi * j / size.height));
   const std::vector<Edge> edges = edges_at(seen.band, heights);

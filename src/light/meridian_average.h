@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "color_planes.h"
-#include "hot_texels.h"
 #include "kiln/image/layers.h"
 
 namespace kiln {
@@ -15,11 +14,10 @@ namespace kiln {
 // sums over z = cos(theta) between its edges. What one texel gains its neighbour loses, so no power
 // is lost in between.
 
-/// Over the four side faces of an environment turned by so much, radiance above the limit counting
-/// as the limit; the other two stay as they are.
+/// Over the four side faces; the other two stay as they are.
+/// @param turns  of the environment, positive turns +Z toward +X [turn]
 /// @param faces  six, of one size
-void average_over_sides(const ColorPlanes& source, const PowerLimit& limit, double turns,
-                        std::vector<Layers>& faces);
+void average_over_sides(const ColorPlanes& source, double turns, std::vector<Layers>& faces);
 
 /// Over the texels of a lat-long image.
 void average_over_latlong(const ColorPlanes& source, double turns, Layers& image);

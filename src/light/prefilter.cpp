@@ -233,10 +233,6 @@ void take_row(const Weighed& source, const Azimuths& azimuths, int y, int begin,
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Texels of one row, few enough that their sum in float keeps its digits.
 struct Stretch {
   int y, begin, end;

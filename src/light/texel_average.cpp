@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 
 #include "color_planes.h"
 #include "finer.h"
@@ -9,6 +10,7 @@
 #include "kiln/light/irradiance.h"
 #include "kiln/light/latlong_texels.h"
 #include "kiln/light/prefilter.h"
+#include "kiln/light/turn.h"
 #include "kiln/parallel/rows.h"
 #include "meridian_average.h"
 
@@ -17,89 +19,96 @@ namespace {
 
 constexpr int lanes = lane_count<WideFloat>;
 
-// A texel that holds more of a colour's power, and many times its share of the sphere, is too small
-// a light to be met evenly by points: what it has above that is dealt out apart.
-constexpr double hot_share = 1e-4;
-constexpr double hot_times_mean = 4;
-constexpr int points_of_hot_texel = 8;  // each way
+// A source texel that holds more of a colour's power, and many times its share of the sphere, is a
+// small light: texels near it are averaged over more points.
+constexpr double hot_share = 1e-5;
+constexpr double hot_times_mean = 10;
+constexpr int points_near_hot = 16;  // each way
 // Texels of the source, as it is looked up, to the widest texel of the layout.
 constexpr double most_source_texels = 4;
 
-/// What hot texels have above the limit, dealt out to the texels that points in them lie in.
-class Spill {
+/// Texels near a small light, by image; empty where there is none.
+class NearHot {
  public:
-  Spill(const SphereGrid& grid, const std::vector<Layers>& images)
-      : layout_(grid.layout),
-        turns_(grid.rotate_deg / 360),
-        size_(images.front().size),
-        power_(images.size()) {}
+  NearHot(const SphereGrid& grid, const ColorPlanes& source);
 
-  void deal(Size source, const HotTexel& texel, const PowerLimit& limit);
-  void add_to(int image, Layers& to) const;
+  bool in(int image) const { return !near_[static_cast<size_t>(image)].empty(); }
+  /// Whether any of so many texels from (x, y) on is near.
+  bool any(int image, int x, int y, int count) const;
 
  private:
-  void add(const Vec3<double>& d, const std::array<double, 3>& power);
+  void mark(const Vec3<double>& d, int reach);
 
-  SphereLayout layout_;
-  double turns_;
+  SphereGrid grid_;
   Size size_;
-  std::vector<std::vector<std::array<double, 3>>> power_;  ///< [images][texels], empty while dark
+  std::vector<std::vector<bool>> near_;
 };
 
-void Spill::deal(Size source, const HotTexel& texel, const PowerLimit& limit) {
-  constexpr int n = points_of_hot_texel;
-  const double solid_angle = latlong_texel_solid_angle(source, texel.y);
-  std::array<double, 3> power{};
-  for (size_t c = 0; c < 3; ++c) {
-    const double most = limit.radiance(c, solid_angle) * solid_angle;
-    power[c] = (texel.power[c] - std::clamp(texel.power[c], -most, most)) / (n * n);
-  }
-  const double top = std::cos(pi * texel.y / source.height);
-  const double bottom = std::cos(pi * (texel.y + 1) / source.height);
-  for (int i = 0; i < n; ++i) {
-    const double phi_rad = 2 * pi * ((texel.x + (i + 0.5) / n) / source.width - turns_ - 0.5);
-    const double sine = std::sin(phi_rad), cosine = std::cos(phi_rad);
-    for (int j = 0; j < n; ++j) {
-      const double y = lerp(top, bottom, (j + 0.5) / n);
-      const double r = safe_sqrt(1 - y * y);
-      add({-sine * r, y, cosine * r}, power);
-    }
-  }
+std::vector<HotTexel> small_lights(const ColorPlanes& source) {
+  const double mean_share = 1.0 / static_cast<double>(area(source.size));
+  PowerLimit limit = share_of_power(source, std::max(hot_share, hot_times_mean * mean_share));
+  limit.least_solid_angle = 4 * pi * mean_share / 8;
+  return hot_texels(source, limit);
 }
 
-void Spill::add(const Vec3<double>& d, const std::array<double, 3>& power) {
-  int image = 0;
+/// Where a direction lies on the plane of a face, or in an image; nothing behind a face.
+std::optional<Vec2<int>> nearest(const SphereGrid& grid, int image, const Vec3<double>& d) {
+  const Size size = grid.image_size();
   Vec2<double> uv;
-  if (layout_ == SphereLayout::Octahedral) {
-    uv = direction_to_octahedral(d);
+  if (grid.layout == SphereLayout::Cube) {
+    const auto face = static_cast<CubeFace>(image);
+    const Vec3<double> middle = cube_to_direction(face, {0.5, 0.5});
+    const double along = dot(d, middle);
+    if (along < 0.3) return std::nullopt;
+    const Vec3<double> right = cube_to_direction(face, {1, 0.5}) - middle;
+    const Vec3<double> down = cube_to_direction(face, {0.5, 1}) - middle;
+    uv = {0.5 + 0.5 * dot(d, right) / along, 0.5 + 0.5 * dot(d, down) / along};
   } else {
-    const CubePoint point = direction_to_cube(d);
-    image = static_cast<int>(point.face);
-    uv = point.uv;
+    uv = grid.layout == SphereLayout::Octahedral ? direction_to_octahedral(d)
+                                                 : direction_to_latlong(d);
   }
-  auto& texels = power_[static_cast<size_t>(image)];
-  if (texels.empty()) texels.resize(static_cast<size_t>(area(size_)));
-  const auto index = [](double u, int count) {
-    return std::clamp(static_cast<int>(u * count), 0, count - 1);
-  };
-  auto& texel =
-      texels[static_cast<size_t>(index(uv.y, size_.height)) * static_cast<size_t>(size_.width) +
-             static_cast<size_t>(index(uv.x, size_.width))];
-  for (size_t c = 0; c < 3; ++c) texel[c] += power[c];
+  return Vec2<int>{static_cast<int>(std::floor(uv.x * size.width)),
+                   static_cast<int>(std::floor(uv.y * size.height))};
 }
 
-void Spill::add_to(int image, Layers& to) const {
-  const auto& texels = power_[static_cast<size_t>(image)];
-  for (size_t i = 0; i < texels.size(); ++i) {
-    if (texels[i] == std::array<double, 3>{}) continue;
-    const int x = static_cast<int>(i) % size_.width, y = static_cast<int>(i) / size_.width;
-    const double solid_angle = layout_ == SphereLayout::Octahedral
-                                   ? octahedral_texel_solid_angle(size_.width, x, y)
-                                   : cube_texel_solid_angle(size_.width, x, y);
-    for (size_t c = 0; c < 3; ++c) {
-      to.layers[c].plane.at(x, y) += static_cast<float>(texels[i][c] / solid_angle);
+// What a light of a texel, as it is looked up, may reach: two texels of the source, and one more.
+NearHot::NearHot(const SphereGrid& grid, const ColorPlanes& source)
+    : grid_(grid), size_(grid.image_size()), near_(static_cast<size_t>(grid.images())) {
+  const Turn turn(grid.rotate_deg);
+  const double texel_rad = 2.0 / size_.height;
+  const int reach = 1 + static_cast<int>(std::ceil(2 * pi / source.size.height / texel_rad));
+  for (const HotTexel& texel : small_lights(source)) {
+    const Vec2<double> uv{(texel.x + 0.5) / source.size.width,
+                          (texel.y + 0.5) / source.size.height};
+    mark(turn.to_world(latlong_to_direction(uv)), reach);
+  }
+}
+
+void NearHot::mark(const Vec3<double>& d, int reach) {
+  for (int image = 0; image < grid_.images(); ++image) {
+    const auto at = nearest(grid_, image, d);
+    if (!at) continue;
+    auto& texels = near_[static_cast<size_t>(image)];
+    for (int y = at->y - reach; y <= at->y + reach; ++y) {
+      for (int x = at->x - reach; x <= at->x + reach; ++x) {
+        if (x < 0 || y < 0 || x >= size_.width || y >= size_.height) continue;
+        texels.resize(static_cast<size_t>(area(size_)));
+        texels[static_cast<size_t>(y) * static_cast<size_t>(size_.width) + static_cast<size_t>(x)] =
+            true;
+      }
     }
   }
+}
+
+bool NearHot::any(int image, int x, int y, int count) const {
+  const auto& texels = near_[static_cast<size_t>(image)];
+  if (texels.empty()) return false;
+  const size_t first = static_cast<size_t>(y) * static_cast<size_t>(size_.width);
+  bool found = false;
+  for (int i = x; i < std::min(x + count, size_.width); ++i) {
+    found = found || texels[first + static_cast<size_t>(i)];
+  }
+  return found;
 }
 
 // Of powers of two, the greatest that divides both sides of the image and leaves its texels fine
@@ -113,8 +122,8 @@ int reduction_for(Size source, double source_texels) {
   return times;
 }
 
-// Mean over blocks of texels, weighted by solid angle, of what is within the limit.
-Layers reduced(const ColorPlanes& source, const PowerLimit& limit, int times) {
+// Mean over blocks of texels, weighted by solid angle.
+Layers reduced(const ColorPlanes& source, int times) {
   const Size size{source.size.width / times, source.size.height / times};
   Layers result = make_layers(size, {"R", "G", "B"});
   for_rows(size.height, [&](int y) {
@@ -125,12 +134,10 @@ Layers reduced(const ColorPlanes& source, const PowerLimit& limit, int times) {
     for (size_t c = 0; c < 3; ++c) {
       std::vector<double> sums(static_cast<size_t>(size.width), 0.0);
       for (int j = 0; j < times; ++j) {
-        const double solid_angle = latlong_texel_solid_angle(source.size, y * times + j);
-        const float most = limit.radiance(c, solid_angle);
+        const double weight = latlong_texel_solid_angle(source.size, y * times + j) / whole;
         const float* row = source.planes[c]->row(y * times + j);
         for (int x = 0; x < source.size.width; ++x) {
-          sums[static_cast<size_t>(x / times)] +=
-              solid_angle / whole * std::clamp(row[x], -most, most);
+          sums[static_cast<size_t>(x / times)] += weight * row[x];
         }
       }
       float* to = result.layers[c].plane.row(y);
@@ -144,30 +151,20 @@ Layers reduced(const ColorPlanes& source, const PowerLimit& limit, int times) {
 struct Points {
   LatLongTexels texels;
   int count;  ///< per texel, each way
+  NearHot near_hot;
+
+  int count_at(int image, int x, int y) const {
+    return near_hot.any(image, x, y, lanes) ? std::max(count, points_near_hot) : count;
+  }
 };
 
-LatLongTexels within_limit(const Layers& latlong, const PowerLimit& limit,
-                           const std::vector<HotTexel>& hot) {
-  LatLongTexels texels(latlong, latlong.size.width, Pole::AcrossByHalfATurn);
-  const ColorPlanes source = color_planes(latlong);
-  for (const HotTexel& texel : hot) {
-    const double solid_angle = latlong_texel_solid_angle(latlong.size, texel.y);
-    const auto clamped = [&](size_t c) {
-      const float most = limit.radiance(c, solid_angle);
-      return std::clamp(source.planes[c]->at(texel.x, texel.y), -most, most);
-    };
-    texels.set_color(texel.x, texel.y, {clamped(0), clamped(1), clamped(2)});
-  }
-  return texels;
-}
-
-Points make_points(const Layers& latlong, const PowerLimit& limit, const std::vector<HotTexel>& hot,
-                   double source_texels) {
+Points make_points(const Layers& latlong, const SphereGrid& grid, double source_texels) {
   const int times = reduction_for(latlong.size, source_texels);
   const int count = std::max(1, static_cast<int>(std::ceil(1.5 * source_texels / times)));
-  if (times == 1) return {within_limit(latlong, limit, hot), count};
-  const Layers coarser = reduced(color_planes(latlong), limit, times);
-  return {LatLongTexels(coarser, coarser.size.width, Pole::AcrossByHalfATurn), count};
+  const Layers coarser = times > 1 ? reduced(color_planes(latlong), times) : Layers{};
+  const Layers& image = times > 1 ? coarser : latlong;
+  return {LatLongTexels(image, image.size.width, Pole::AcrossByHalfATurn), count,
+          NearHot(grid, color_planes(image))};
 }
 
 WideFloat count_up() {
@@ -222,15 +219,16 @@ Vec2<WideFloat> in_texels(Size size, const Vec2<WideFloat>& uv, double turns) {
 
 // As many texels of row y as a wide number has lanes, from texel x on.
 Vec3<WideFloat> average_at(const Points& points, const SphereGrid& grid, int image, int x, int y) {
-  const double n = points.count;
+  const int count = points.count_at(image, x, y);
+  const double n = count;
   const Vec2<double> origin = grid.point(0, 0), next = grid.point(1, 1);
   const Vec2<double> step{next.x - origin.x, next.y - origin.y};
   const WideFloat first = count_up() + WideFloat(static_cast<float>(x));
   Vec3<WideFloat> sum{WideFloat(0.0f), WideFloat(0.0f), WideFloat(0.0f)};
   WideFloat weights(0.0f);
-  for (int j = 0; j < points.count; ++j) {
+  for (int j = 0; j < count; ++j) {
     const double v = origin.y + step.y * (y - 0.5 + (j + 0.5) / n);
-    for (int i = 0; i < points.count; ++i) {
+    for (int i = 0; i < count; ++i) {
       const double from = origin.x + step.x * (-0.5 + (i + 0.5) / n);
       const WideFloat u =
           fma(first, WideFloat(static_cast<float>(step.x)), WideFloat(static_cast<float>(from)));
@@ -264,34 +262,58 @@ double source_texels_of(const SphereGrid& grid, Size source) {
   return widest_rad * source.height / pi;
 }
 
-double power_of(const Plane& plane, const std::vector<double>& weights) {
-  const auto sums = sum_rows(plane.height(), 1, [&](int y, std::vector<double>& row) {
+/// Power of texels that may be scaled, and of all others.
+struct Powers {
+  double loose = 0, fixed = 0;
+};
+
+template <class IsLoose>
+Powers powers_of(const Plane& plane, const std::vector<double>& weights, const IsLoose& is_loose) {
+  const auto sums = sum_rows(plane.height(), 2, [&](int y, std::vector<double>& row) {
     const size_t first = static_cast<size_t>(y) * static_cast<size_t>(plane.width());
     for (int x = 0; x < plane.width(); ++x) {
-      row[0] += plane.at(x, y) * weights[first + static_cast<size_t>(x)];
+      row[is_loose(x, y) ? 0 : 1] += plane.at(x, y) * weights[first + static_cast<size_t>(x)];
     }
   });
-  return sums[0];
+  return {sums[0], sums[1]};
 }
 
-// Averages by points miss a little of the power, or find too much: they are scaled so that, with
-// the others, the whole is that of the source. Nothing is scaled where power nearly cancels.
-void keep_power(const Vec3<double>& mean, const SphereGrid& grid,
+template <class IsLoose>
+void scale_texels(float scale, const IsLoose& is_loose, Plane& plane) {
+  for (int y = 0; y < plane.height(); ++y) {
+    for (int x = 0; x < plane.width(); ++x) {
+      if (is_loose(x, y)) plane.row(y)[x] *= scale;
+    }
+  }
+}
+
+// Averages by points miss a little of the power, or find too much, above all of small lights:
+// texels near these, or all where there are none, are scaled so that the whole is that of the
+// source. Nothing is scaled where power nearly cancels.
+void keep_power(const Vec3<double>& mean, const SphereGrid& grid, const NearHot& near_hot,
                 const std::vector<bool>& by_points, std::vector<Layers>& images) {
   const std::vector<double> weights = solid_angles(grid);
   const std::array<double, 3> whole = {4 * pi * mean.x, 4 * pi * mean.y, 4 * pi * mean.z};
+  bool any_hot = false;
+  for (size_t i = 0; i < images.size(); ++i) {
+    any_hot = any_hot || (by_points[i] && near_hot.in(static_cast<int>(i)));
+  }
+  const auto loose_in = [&](size_t image) {
+    return [&, image](int x, int y) {
+      return by_points[image] && (!any_hot || near_hot.any(static_cast<int>(image), x, y, 1));
+    };
+  };
   for (size_t c = 0; c < 3; ++c) {
-    double exact = 0, found = 0;
+    Powers all;
     for (size_t i = 0; i < images.size(); ++i) {
-      (by_points[i] ? found : exact) += power_of(images[i].layers[c].plane, weights);
+      const Powers found = powers_of(images[i].layers[c].plane, weights, loose_in(i));
+      all.loose += found.loose;
+      all.fixed += found.fixed;
     }
-    const auto scale = static_cast<float>((whole[c] - exact) / found);
-    if (!(std::abs(scale - 1) < 0.01f)) continue;
+    const auto scale = static_cast<float>((whole[c] - all.fixed) / all.loose);
+    if (!(scale > 0.5f && scale < 2.0f)) continue;
     for (size_t i = 0; i < images.size(); ++i) {
-      Plane& plane = images[i].layers[c].plane;
-      for (int y = 0; by_points[i] && y < plane.height(); ++y) {
-        for (int x = 0; x < plane.width(); ++x) plane.row(y)[x] *= scale;
-      }
+      if (by_points[i]) scale_texels(scale, loose_in(i), images[i].layers[c].plane);
     }
   }
 }
@@ -301,27 +323,17 @@ bool is_side(CubeFace face) { return face != CubeFace::py && face != CubeFace::n
 // Texels that are finer than the source's would show these as boxes: then all faces are looked up
 // at points, else only those where meridians are no columns.
 void average_images(const Layers& latlong, const SphereGrid& grid, std::vector<Layers>& images) {
-  const ColorPlanes source = color_planes(latlong);
   const double source_texels = source_texels_of(grid, latlong.size);
-  const double mean_share = 1.0 / static_cast<double>(area(latlong.size));
-  PowerLimit limit = share_of_power(source, std::max(hot_share, hot_times_mean * mean_share));
-  limit.least_solid_angle = 4 * pi * mean_share / 8;
-  if (grid.at_nodes) limit.most = {INFINITY, INFINITY, INFINITY};
-  const std::vector<HotTexel> hot = hot_texels(source, limit);
-  const Points points = make_points(latlong, limit, hot, source_texels);
+  const Points points = make_points(latlong, grid, source_texels);
   const bool sides_apart =
       grid.layout == SphereLayout::Cube && !grid.at_nodes && source_texels >= 1;
-  if (sides_apart) average_over_sides(source, limit, grid.rotate_deg / 360, images);
-  Spill spill(grid, images);
-  for (const HotTexel& texel : hot) spill.deal(latlong.size, texel, limit);
+  if (sides_apart) average_over_sides(color_planes(latlong), grid.rotate_deg / 360, images);
   std::vector<bool> by_points;
   for (size_t i = 0; i < images.size(); ++i) {
-    const int image = static_cast<int>(i);
     by_points.push_back(!sides_apart || !is_side(static_cast<CubeFace>(i)));
-    if (by_points[i]) average_rows(points, grid, image, images[i]);
-    spill.add_to(image, images[i]);
+    if (by_points[i]) average_rows(points, grid, static_cast<int>(i), images[i]);
   }
-  if (!grid.at_nodes) keep_power(mean_radiance(latlong), grid, by_points, images);
+  if (!grid.at_nodes) keep_power(mean_radiance(latlong), grid, points.near_hot, by_points, images);
 }
 
 }  // namespace

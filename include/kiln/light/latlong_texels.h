@@ -20,9 +20,6 @@ class LatLongTexels {
   /// @param columns  columns to take from the image, from the left (node-aligned images repeat one)
   LatLongTexels(const Layers& image, int columns, Pole pole);
 
-  /// Replaces the colour of texel (x, y) of the image, and its copies in the border.
-  void set_color(int x, int y, const Vec3<float>& color);
-
   Size size() const { return size_; }
 
   /// Bilinear value at a point in texels of the bordered image: texel (x, y) has its centre at
@@ -62,10 +59,8 @@ class LatLongTexels {
   }
 
   void fill_row(const Layers& image, int from, int to, int turn);
-  int turn() const { return pole_ == Pole::AcrossByHalfATurn ? size_.width / 2 : 0; }
 
   Size size_;
-  Pole pole_ = Pole::Clamped;
   int stride_ = 0;  ///< width of the bordered image
   std::vector<float> texels_;
 };

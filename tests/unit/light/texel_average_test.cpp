@@ -113,5 +113,22 @@ TEST(TexelAverage, LeavesALatLongImageOfThatSizeAsItIs) {
   }
 }
 
+TEST(TexelAverage, LeavesAnEvenLampEvenOnFinerTexels) {
+  const Layers image = test::environment_of({128, 64}, [](const Vec3<double>& d) {
+    const double value = d.y > 0.8 || (d.x > 0.8 && d.y < 0.3) ? 10 : 0.1;
+    return Vec3<double>{value, value, value};
+  });
+  for (const int edge : {24, 40, 64, 256}) {
+    const auto faces = average_over_texels(image, {.size = edge});
+    for (const CubeFace face : {CubeFace::px, CubeFace::py}) {
+      const Plane& plane = faces[static_cast<size_t>(face)].layers[0].plane;
+      for (const double u : {0.45, 0.5, 0.55}) {
+        const int x = static_cast<int>(u * edge);
+        EXPECT_NEAR(plane.at(x, edge / 2), 10, 0.1) << edge;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kiln
