@@ -58,5 +58,19 @@ compare() {
   sed '/^computing/d; s/^/  /' "$work/errors"
 }
 
+# Nanoseconds of computing per texel of the source, and of the chain.
+growth() {
+  local width=$1 size=$2 source="$work/growth_$1.exr" alone
+  oiiotool "$image" --ch R,G,B --resize "${width}x$((width / 2))" -d half -o "$source"
+  alone=$("$bench" "$source" "$size" | sed -n 's/^computing //p')
+  awk -v w="$width" -v n="$size" -v o="$alone" 'BEGIN {
+    printf "  %5d x %-5d to %4d   %8.1f ms   %6.1f ns a texel of the source, %6.1f of the chain\n",
+           w, w / 2, n, o, o * 1e6 / (w * w / 2), o * 1e6 / (8 * n * n) }'
+}
+
 compare 1024 256 "$runs"
 compare 4096 512 "$(((runs + 1) / 2))"
+echo "growth with the source:"
+for width in 1024 2048 4096 8192; do growth "$width" 128; done
+echo "growth with the chain:"
+for size in 128 256 512 1024; do growth 1024 "$size"; done

@@ -227,10 +227,10 @@ FileFacts inspect_image(const fs::path& path) {
 }
 
 ImageFile read_image(const fs::path& path, const ReadLimits& limits,
-                     const std::vector<std::string>& channels) {
+                     const std::vector<std::string>& channels, const RunTasks& run) {
   const std::string format = format_of(path);
   return with_context(path.string(), [&] {
-    const io::Reading reading{.limits = limits, .channels = channels};
+    const io::Reading reading{.limits = limits, .channels = channels, .run = run};
     ImageFile file = io::read_volume(path, format, reading).file;
     std::erase_if(file.image.layers,
                   [&](const Layer& layer) { return !reading.wants(layer.name); });

@@ -62,24 +62,48 @@ int rows_of_block(const Imf::Header& header) {
   return header.hasTileDescription() ? static_cast<int>(header.tileDescription().ySize) : lines;
 }
 
-// Planes are made once the first block could be read, so a header that promises much and has
-// nothing behind it costs little.
-Layers read_part(Imf::InputPart& part, Size size, const std::vector<std::string>& channels) {
+// Rows from `first` up to `end` of the data window, block by block. Planes are made once the first
+// block could be read, so a header that promises much and has nothing behind it costs little.
+void read_rows(Imf::InputPart& part, const std::vector<std::string>& channels, int first,
+               long long end, Layers& image) {
   const Box2i stored = part.header().dataWindow();
   const Box2i shown = part.header().displayWindow();
-  Block block{stored.min.y, 0, stored.max.x - stored.min.x + 1, {}};
+  Block block{first, 0, stored.max.x - stored.min.x + 1, {}};
   const int rows = rows_of_block(part.header());
-  Layers image;
-  while (block.first <= stored.max.y) {
-    block.rows = static_cast<int>(std::min<long long>(rows, extent(block.first, stored.max.y)));
+  while (block.first < end) {
+    block.rows = static_cast<int>(std::min<long long>(rows, end - block.first));
     block.texels.resize(channels.size() * static_cast<size_t>(block.rows) *
                         static_cast<size_t>(block.width));
     read_block(part, channels, block);
-    if (image.layers.empty()) image = make_layers(size, channels);
+    if (image.layers.empty()) {
+      image = make_layers({shown.max.x - shown.min.x + 1, shown.max.y - shown.min.y + 1}, channels);
+    }
     place_block(block, stored, shown, image);
-    if (extent(block.first, stored.max.y) <= block.rows) break;
+    if (end - block.first <= block.rows) break;
     block.first += block.rows;
   }
+}
+
+// Bands of a large file of lines are unpacked side by side, each through a reader of its own.
+Layers read_part(const std::filesystem::path& path, Imf::InputPart& part,
+                 const std::vector<std::string>& channels, const RunTasks& run) {
+  constexpr int rows_of_band = 256;
+  const Box2i stored = part.header().dataWindow();
+  const long long end = static_cast<long long>(stored.max.y) + 1;
+  const long long bands = (end - stored.min.y + rows_of_band - 1) / rows_of_band;
+  Layers image;
+  if (!run || bands < 2 || part.header().hasTileDescription()) {
+    read_rows(part, channels, stored.min.y, end, image);
+    return image;
+  }
+  read_rows(part, channels, stored.min.y, static_cast<long long>(stored.min.y) + rows_of_band,
+            image);
+  run(static_cast<int>(bands - 1), [&](int band) {
+    Imf::MultiPartInputFile file(path.c_str(), 0, false);
+    Imf::InputPart own(file, 0);
+    const long long first = stored.min.y + (band + 1LL) * rows_of_band;
+    read_rows(own, channels, static_cast<int>(first), std::min(end, first + rows_of_band), image);
+  });
   return image;
 }
 
@@ -114,7 +138,7 @@ ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading
     std::copy_if(result.facts.channels.begin(), result.facts.channels.end(),
                  std::back_inserter(wanted),
                  [&](const std::string& channel) { return reading.wants(channel); });
-    result.image = read_part(part, result.facts.size, wanted);
+    result.image = read_part(path, part, wanted, reading.run);
     if (covers_part(result.image)) {
       result.facts.notes.emplace_back("alpha is not 1 everywhere; colour is as stored beside it");
     }

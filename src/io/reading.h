@@ -16,6 +16,8 @@ struct Reading {
   std::vector<std::string> channels = {};  ///< names of those wanted; empty: all
   /// Called now and then: the bytes read so far may leave the memory (FileContents::let_go).
   std::function<void()> let_go = [] {};
+  /// Runs tasks side by side; empty: one after another.
+  RunTasks run = {};
 
   bool wants(const std::string& channel) const {
     return channels.empty() || std::count(channels.begin(), channels.end(), channel) > 0;

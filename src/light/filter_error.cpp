@@ -53,11 +53,8 @@ std::vector<TexelAt> choose_texels(const FilteredLevel& level, std::uint32_t spr
   std::vector<TexelAt> texels = spread_over(level, spread);
   const TexelAt best = brightest_of(level);
   const Size size = level.images.front().size;
-  for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, -1}}) {
-    const TexelAt at{best.image, best.x + dx, best.y + dy};
-    const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
-    if (inside) texels.push_back(at);
-  }
+  texels.push_back(best);
+  texels.push_back({best.image, best.x > 0 ? best.x - 1 : std::min(1, size.width - 1), best.y});
   return texels;
 }
 

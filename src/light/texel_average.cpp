@@ -25,7 +25,7 @@ constexpr double hot_share = 1e-5;
 constexpr double hot_times_mean = 10;
 constexpr int points_near_hot = 16;  // each way
 // Texels of the source, as it is looked up, to the widest texel of the layout.
-constexpr double most_source_texels = 4;
+constexpr double most_source_texels = 2.5;
 
 /// Texels near a small light, by image; empty where there is none.
 class NearHot {

@@ -11,6 +11,7 @@
 #include "kiln/image/arrangement.h"
 #include "kiln/io/texture_file.h"
 #include "kiln/material/slots.h"
+#include "kiln/parallel/rows.h"
 
 namespace kiln {
 namespace {
@@ -124,7 +125,7 @@ class LightReader {
   // No more of the file than its colour ever is in memory.
   Layers read_color(const fs::path& path, const FileFacts& facts) {
     const std::vector<std::string> channels = color_channels(facts.channels);
-    Layers image = named_rgb(read_image(path, {}, channels).image, channels);
+    Layers image = named_rgb(read_image(path, {}, channels, for_rows).image, channels);
     bring_to_working(facts.type, image);
     return image;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -65,6 +66,9 @@ struct ReadLimits {
   int max_channels = 256;            ///< as is one with more channels
 };
 
+/// Calls task(i) for every i below count, in any order, side by side or not.
+using RunTasks = std::function<void(int count, const std::function<void(int)>& task)>;
+
 /// The header only. @error Fault::Input, message "PATH: what is wrong"
 FileFacts inspect_image(const std::filesystem::path& path);
 
@@ -83,9 +87,11 @@ FileFacts inspect_image(const std::filesystem::path& path);
 /// What is returned is all that is held, beside a few rows: files are not held themselves, except
 /// small ones and JPEG.
 /// @param channels  names of the channels wanted, in any order; the others are not held. Empty: all
+/// @param run       with which large OpenEXR files are unpacked side by side. Empty: one after
+/// another
 /// @error Fault::Input when missing, empty, truncated, unreadable or too large
 ImageFile read_image(const std::filesystem::path& path, const ReadLimits& limits = {},
-                     const std::vector<std::string>& channels = {});
+                     const std::vector<std::string>& channels = {}, const RunTasks& run = {});
 
 /// What a written file says about its colours, in formats that can say it (PNG).
 enum class ColorTag {

@@ -20,7 +20,7 @@ struct FilteredLevel {
 };
 
 /// The error of each level by brute force over every texel of the source, at up to ten texels
-/// spread over the level, the brightest one and two beside it.
+/// spread over the level, the brightest one and one beside it.
 /// @param mean_radiance  of the source, as luminance
 std::vector<FilterError> filter_errors(const Prefilter& prefilter,
                                        const std::vector<FilteredLevel>& levels,

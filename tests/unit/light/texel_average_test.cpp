@@ -96,7 +96,10 @@ TEST(TexelAverage, IsNearTheMeanOfFinePoints) {
         sum += weight * (1 + std::sin(12 * unit.x) * std::cos(9 * unit.y + unit.z));
         weights += weight;
       }
-      EXPECT_NEAR(faces[static_cast<size_t>(face)].layers[0].plane.at(x, y), sum / weights, 6e-3)
+      // Top and bottom are looked up bilinearly in half as many texels, a little softer.
+      const bool side = face < 2 || face > 3;
+      EXPECT_NEAR(faces[static_cast<size_t>(face)].layers[0].plane.at(x, y), sum / weights,
+                  side ? 6e-3 : 2e-2)
           << face << " " << x << " " << y;
     }
   }
