@@ -78,9 +78,8 @@ void refuse_extras(const CLI::App& app) {
   const std::string name = option->substr(0, option->find('='));
   const auto nearest = nearest_name(name, option_names(app));
   throw Error(Fault::Usage,
-              nearest
-                  ? fmt::format("unknown option '{}' (did you mean '{}'?)", name, *nearest)
-                  : fmt::format("unknown option '{}' (see kiln {} --help)", name, app.get_name()));
+              nearest ? fmt::format("unknown option '{}' (did you mean '{}'?)", name, *nearest)
+                      : fmt::format("unknown option '{}' (see {} --help)", name, app.get_name()));
 }
 
 const Verb* find_verb(const std::vector<Verb>& verbs, const std::string& name) {

@@ -87,7 +87,7 @@ void read_rows(Imf::InputPart& part, const std::vector<std::string>& channels, i
 // Bands of a large file of lines are unpacked side by side, each through a reader of its own.
 Layers read_part(const std::filesystem::path& path, Imf::InputPart& part,
                  const std::vector<std::string>& channels, const RunTasks& run) {
-  constexpr int rows_of_band = 256;
+  constexpr int rows_of_band = 64;
   const Box2i stored = part.header().dataWindow();
   const long long end = static_cast<long long>(stored.max.y) + 1;
   const long long bands = (end - stored.min.y + rows_of_band - 1) / rows_of_band;

@@ -20,8 +20,12 @@ Texel brightest(const ColorPlanes& latlong) {
   std::vector<int> best(static_cast<size_t>(latlong.size.height), 0);
   for_rows(latlong.size.height, [&](int y) {
     int& found = best[static_cast<size_t>(y)];
+    double most = luminance(latlong.at(0, y));
     for (int x = 1; x < latlong.size.width; ++x) {
-      if (luminance(latlong.at(x, y)) > luminance(latlong.at(found, y))) found = x;
+      const double value = luminance(latlong.at(x, y));
+      if (value <= most) continue;
+      most = value;
+      found = x;
     }
   });
   Texel texel{best[0], 0};

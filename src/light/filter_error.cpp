@@ -12,7 +12,7 @@ namespace {
 // Of large sources fewer, so that checking does not take longer than filtering.
 std::uint32_t spread_texels(Size source) {
   constexpr long long budget = 10LL * 1024 * 512;
-  return static_cast<std::uint32_t>(std::clamp(budget / area(source), 2LL, 10LL));
+  return static_cast<std::uint32_t>(std::clamp(budget / area(source), 1LL, 10LL));
 }
 
 struct TexelAt {

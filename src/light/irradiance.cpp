@@ -104,15 +104,27 @@ std::vector<Vec3<double>> sums_above_horizons(Size size, std::span<const Vec3<do
   return irradiance;
 }
 
+double sum_of(std::span<const float> values) {
+  constexpr size_t lanes = lane_count<WideDouble>;
+  WideDouble sum(0.0);
+  size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    sum += WideDouble::load_unaligned(values.data() + i);
+  }
+  double rest = 0;
+  for (; i < values.size(); ++i) rest += values[i];
+  return xsimd::hadd(sum) + rest;
+}
+
 }  // namespace
 
 Vec3<double> mean_radiance(const Layers& latlong) {
   const ColorPlanes colors = color_planes(latlong);
   const auto sums = sum_rows(colors.size.height, 3, [&](int y, std::vector<double>& share) {
-    Vec3<double> sum;
-    for (int x = 0; x < colors.size.width; ++x) sum += colors.at(x, y);
-    sum = sum * (latlong_texel_solid_angle(colors.size, y) / (4 * pi));
-    share = {sum.x, sum.y, sum.z};
+    const double weight = latlong_texel_solid_angle(colors.size, y) / (4 * pi);
+    for (size_t c = 0; c < 3; ++c) {
+      share[c] = sum_of(colors.planes[c]->texels_of_row(y)) * weight;
+    }
   });
   return {sums[0], sums[1], sums[2]};
 }

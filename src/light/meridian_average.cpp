@@ -203,10 +203,10 @@ struct SideStrips {
   std::vector<std::vector<Edge>> edges;  ///< of each strip
 };
 
-// As narrow as the source's columns: then what the edge to the top and bottom faces cuts off a
-// texel is right, though it is level in each strip.
+// About as narrow as the source's columns: then what the edge to the top and bottom faces cuts off
+// a texel is right, though it is level in each strip.
 SideStrips strips_of_side(const Band& band, int size, int source_columns) {
-  const int wanted = std::max(least_strips, source_columns / 4);
+  const int wanted = std::max(least_strips, source_columns / 8);
   const int count = size * std::clamp((wanted + size - 1) / size, 1, most_strips_per_column);
   SideStrips strips;
   for (int i = 0; i <= count; ++i) strips.azimuths_rad.push_back(std::atan(2.0 * i / count - 1));

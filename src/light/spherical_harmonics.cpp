@@ -69,9 +69,8 @@ double dot_row(std::span<const float> texels, const std::vector<double>& wave) {
   WideDouble sum(0.0);
   size_t x = 0;
   for (; x + lanes <= texels.size(); x += lanes) {
-    double values[lanes];
-    for (size_t i = 0; i < lanes; ++i) values[i] = texels[x + i];
-    sum = fma(load_lanes<WideDouble>(values), load_lanes<WideDouble>(wave.data() + x), sum);
+    sum = fma(WideDouble::load_unaligned(texels.data() + x),
+              load_lanes<WideDouble>(wave.data() + x), sum);
   }
   double rest = 0;
   for (; x < texels.size(); ++x) rest += texels[x] * wave[x];

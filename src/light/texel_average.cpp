@@ -136,8 +136,8 @@ Layers reduced(const ColorPlanes& source, int times) {
       for (int j = 0; j < times; ++j) {
         const double weight = latlong_texel_solid_angle(source.size, y * times + j) / whole;
         const float* row = source.planes[c]->row(y * times + j);
-        for (int x = 0; x < source.size.width; ++x) {
-          sums[static_cast<size_t>(x / times)] += weight * row[x];
+        for (double& sum : sums) {
+          for (int i = 0; i < times; ++i) sum += weight * *row++;
         }
       }
       float* to = result.layers[c].plane.row(y);
