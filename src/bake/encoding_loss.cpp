@@ -51,9 +51,9 @@ void add_value(float is, float has, const Held& range, double solid_angle, Sums&
 /// @param weights  solid angles of texels; empty: none are weighed
 Sums sums_of(const Layers& image, const Layers& held, const Held& range,
              const std::vector<double>& weights) {
-  std::vector<Sums> rows(static_cast<size_t>(image.size.height));
-  for_rows(image.size.height, [&](int y) {
-    Sums& row = rows[static_cast<size_t>(y)];
+  Sums sums;
+  for (int y = 0; y < image.size.height; ++y) {
+    Sums row;
     const size_t first = static_cast<size_t>(y) * static_cast<size_t>(image.size.width);
     for (int x = 0; x < image.size.width; ++x) {
       const double weight = weights.empty() ? 0.0 : weights[first + static_cast<size_t>(x)];
@@ -62,9 +62,8 @@ Sums sums_of(const Layers& image, const Layers& held, const Held& range,
                   row);
       }
     }
-  });
-  Sums sums;
-  for (const Sums& row : rows) sums.add(row);
+    sums.add(row);
+  }
   return sums;
 }
 
@@ -74,16 +73,25 @@ EncodingLoss measure_encoding(const std::vector<std::vector<Layers>>& levels,
                               const SphereGrid& first, const std::string& pixel_type, double mean,
                               const Coded& coded) {
   const Held range = held_by(pixel_type, coded);
+  const std::vector<double> weights = solid_angles(first);
+  std::vector<const Layers*> images;
+  for (const auto& level : levels) {
+    for (const Layers& image : level) images.push_back(&image);
+  }
+  const size_t of_level = levels.front().size();
+  std::vector<Sums> found(images.size());
+  for_rows(static_cast<int>(images.size()), [&](int i) {
+    const auto at = static_cast<size_t>(i);
+    found[at] = sums_of(*images[at], coded(*images[at], pixel_type), range,
+                        at < of_level ? weights : std::vector<double>{});
+  });
   Sums all, of_first;
   double count = 0;
-  for (size_t level = 0; level < levels.size(); ++level) {
-    const std::vector<double> weights = level == 0 ? solid_angles(first) : std::vector<double>{};
-    for (const Layers& image : levels[level]) {
-      const Sums found = sums_of(image, coded(image, pixel_type), range, weights);
-      all.add(found);
-      if (level == 0) of_first.add(found);
-      count += static_cast<double>(area(image.size)) * static_cast<double>(image.layers.size());
-    }
+  for (size_t i = 0; i < images.size(); ++i) {
+    all.add(found[i]);
+    if (i < of_level) of_first.add(found[i]);
+    count += static_cast<double>(area(images[i]->size)) *
+             static_cast<double>(images[i]->layers.size());
   }
   const double scale = 1 / std::max(std::abs(mean), 1e-30);
   return {std::sqrt(all.squares / std::max(count, 1.0)) * scale, all.greatest * scale,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/light/dominant_light.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "color_planes.h"
@@ -17,21 +19,17 @@ struct Texel {
 };
 
 Texel brightest(const ColorPlanes& latlong) {
-  std::vector<int> best(static_cast<size_t>(latlong.size.height), 0);
+  std::vector<double> most(static_cast<size_t>(latlong.size.height), -INFINITY);
   for_rows(latlong.size.height, [&](int y) {
-    int& found = best[static_cast<size_t>(y)];
-    double most = luminance(latlong.at(0, y));
-    for (int x = 1; x < latlong.size.width; ++x) {
-      const double value = luminance(latlong.at(x, y));
-      if (value <= most) continue;
-      most = value;
-      found = x;
+    double& of_row = most[static_cast<size_t>(y)];
+    for (int x = 0; x < latlong.size.width; ++x) {
+      of_row = std::max(of_row, luminance(latlong.at(x, y)));
     }
   });
-  Texel texel{best[0], 0};
-  for (int y = 1; y < latlong.size.height; ++y) {
-    const int x = best[static_cast<size_t>(y)];
-    if (luminance(latlong.at(x, y)) > luminance(latlong.at(texel.x, texel.y))) texel = {x, y};
+  const auto row = std::max_element(most.begin(), most.end());
+  Texel texel{0, static_cast<int>(row - most.begin())};
+  while (texel.x + 1 < latlong.size.width && luminance(latlong.at(texel.x, texel.y)) < *row) {
+    ++texel.x;
   }
   return texel;
 }

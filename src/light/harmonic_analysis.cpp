@@ -2,6 +2,7 @@
 #include "harmonic_analysis.h"
 
 #include "fourier.h"
+#include "kiln/core/zeroed_allocator.h"
 #include "kiln/image/projection.h"
 #include "kiln/parallel/rows.h"
 
@@ -12,18 +13,30 @@ constexpr int lanes = lane_count<WideDouble>;
 
 /// For each m, colour and block of ring pairs: the Fourier coefficients of the pair's sum, which
 /// meet the P_lm that are even about the equator, and of its difference, which meet the odd ones.
+/// Blocks so near the poles that no P_lm of that m reaches them are left out.
 struct RingSpectra {
   static constexpr size_t parts = 6;  ///< re, im of red, green, blue
 
-  RingSpectra(int order, int blocks_in)
-      : blocks(static_cast<size_t>(blocks_in)),
-        sums(static_cast<size_t>(order + 1) * parts * blocks),
-        differences(sums.size()) {}
+  RingSpectra(const std::vector<LegendreColumn>& columns, const RingPairs& rings) {
+    size_t count = 0;
+    rows.reserve(columns.size());
+    for (const LegendreColumn& column : columns) {
+      const auto first = static_cast<size_t>(column.first_block(rings));
+      rows.push_back({count, first, static_cast<size_t>(rings.blocks()) - first});
+      count += parts * rows.back().blocks;
+    }
+    sums.resize(count);
+    differences.resize(count);
+  }
 
-  size_t first(int m) const { return static_cast<size_t>(m) * parts * blocks; }
+  /// Of one m: parts x blocks numbers from `begin` on.
+  struct Row {
+    size_t begin, first_block, blocks;
+  };
+  using Numbers = std::vector<WideDouble, ZeroedAllocator<WideDouble>>;
 
-  size_t blocks;
-  std::vector<WideDouble> sums, differences;  ///< [m][part][block]
+  std::vector<Row> rows;
+  Numbers sums, differences;
 };
 
 /// What the rings of an image have in common.
@@ -63,20 +76,21 @@ void load_pair(const Rings& rings, int pair, size_t color, int lane, Spectrum& r
 }
 
 // Separates the two real transforms and moves their origin to the edge of the image.
-void store_block(const Rings& rings, const Spectrum& ring, int block, size_t color,
+void store_block(const Rings& rings, const Spectrum& ring, size_t block, size_t color,
                  RingSpectra& spectra) {
   const size_t width = ring.re.size(), bands = rings.turn_re.size();
   const WideDouble half(0.5);
   for (size_t k = 0; k < bands; ++k) {
+    const RingSpectra::Row& row = spectra.rows[k];
+    if (block < row.first_block) continue;
     const size_t mirror = (width - k) % width;
     const WideDouble sum_re = half * (ring.re[k] + ring.re[mirror]);
     const WideDouble sum_im = half * (ring.im[k] - ring.im[mirror]);
     const WideDouble difference_re = half * (ring.im[k] + ring.im[mirror]);
     const WideDouble difference_im = half * (ring.re[mirror] - ring.re[k]);
     const WideDouble c(rings.turn_re[k]), s(rings.turn_im[k]);
-    const size_t re = spectra.first(static_cast<int>(k)) + 2 * color * spectra.blocks +
-                      static_cast<size_t>(block);
-    const size_t im = re + spectra.blocks;
+    const size_t re = row.begin + 2 * color * row.blocks + (block - row.first_block);
+    const size_t im = re + row.blocks;
     spectra.sums[re] = fma(sum_re, c, -(sum_im * s));
     spectra.sums[im] = fma(sum_re, s, sum_im * c);
     spectra.differences[re] = fma(difference_re, c, -(difference_im * s));
@@ -84,8 +98,8 @@ void store_block(const Rings& rings, const Spectrum& ring, int block, size_t col
   }
 }
 
-RingSpectra transform_rings(const Rings& rings, int order) {
-  RingSpectra spectra(order, rings.pairs.blocks());
+RingSpectra transform_rings(const Rings& rings, const std::vector<LegendreColumn>& columns) {
+  RingSpectra spectra(columns, rings.pairs);
   for_rows(rings.pairs.blocks(), [&](int block) {
     Spectrum ring(rings.image.size.width), scratch;
     for (size_t color = 0; color < 3; ++color) {
@@ -94,7 +108,7 @@ RingSpectra transform_rings(const Rings& rings, int order) {
         if (pair < rings.pairs.count) load_pair(rings, pair, color, lane, ring);
       }
       rings.fourier.forward(ring, scratch);
-      store_block(rings, ring, block, color, spectra);
+      store_block(rings, ring, static_cast<size_t>(block), color, spectra);
       std::fill(ring.re.begin(), ring.re.end(), WideDouble(0.0));
       std::fill(ring.im.begin(), ring.im.end(), WideDouble(0.0));
     }
@@ -139,17 +153,18 @@ ColorCoefficient added_up(const Sums& sums) {
 
 // Two rows of one parity against the six parts of a spectrum: the sums stay in registers.
 std::array<ColorCoefficient, 2> project(const std::vector<WideDouble>& p,
-                                        const std::vector<WideDouble>& q, size_t first,
-                                        const WideDouble* spectra) {
-  const size_t blocks = p.size();
+                                        const std::vector<WideDouble>& q,
+                                        const RingSpectra::Row& row,
+                                        const RingSpectra::Numbers& spectra) {
   Sums of_p, of_q;
   of_p.fill(WideDouble(0.0));
   of_q.fill(WideDouble(0.0));
-  for (size_t v = first; v < blocks; ++v) {
+  for (size_t v = 0; v < row.blocks; ++v) {
+    const WideDouble at_p = p[row.first_block + v], at_q = q[row.first_block + v];
     for (size_t k = 0; k < RingSpectra::parts; ++k) {
-      const WideDouble part = spectra[k * blocks + v];
-      of_p[k] = fma(p[v], part, of_p[k]);
-      of_q[k] = fma(q[v], part, of_q[k]);
+      const WideDouble part = spectra[row.begin + k * row.blocks + v];
+      of_p[k] = fma(at_p, part, of_p[k]);
+      of_q[k] = fma(at_q, part, of_q[k]);
     }
   }
   return {added_up(of_p), added_up(of_q)};
@@ -159,16 +174,14 @@ std::array<ColorCoefficient, 2> project(const std::vector<WideDouble>& p,
 // difference.
 std::vector<ColorCoefficient> analyse_column(const LegendreColumn& column, const RingPairs& rings,
                                              const RingSpectra& spectra) {
-  const auto first = static_cast<size_t>(column.first_block(rings));
+  const RingSpectra::Row& row = spectra.rows[static_cast<size_t>(column.m)];
   const size_t count = column.scale.size();
   Sweep sweep(rings.blocks());
   std::vector<ColorCoefficient> coefficients(count + Sweep::rows);
   for (size_t i = 0; i < count; i += Sweep::rows) {
-    advance(column, rings, first, i, sweep);
-    const auto even =
-        project(sweep.p[0], sweep.p[2], first, spectra.sums.data() + spectra.first(column.m));
-    const auto odd = project(sweep.p[1], sweep.p[3], first,
-                             spectra.differences.data() + spectra.first(column.m));
+    advance(column, rings, row.first_block, i, sweep);
+    const auto even = project(sweep.p[0], sweep.p[2], row, spectra.sums);
+    const auto odd = project(sweep.p[1], sweep.p[3], row, spectra.differences);
     coefficients[i] = even[0];
     coefficients[i + 1] = odd[0];
     coefficients[i + 2] = even[1];
@@ -213,7 +226,7 @@ Expansion analyse(const ColorPlanes& latlong, const PowerLimit& limit,
                   const std::vector<LegendreColumn>& columns) {
   const int order = static_cast<int>(columns.size()) - 1;
   const Rings rings = make_rings(latlong, limit, order);
-  const RingSpectra spectra = transform_rings(rings, order);
+  const RingSpectra spectra = transform_rings(rings, columns);
   Expansion result{order, {}, analyse_constant(latlong.size, rings.pairs, columns.front())};
   result.columns.resize(columns.size());
   for_rows(order + 1, [&](int m) {

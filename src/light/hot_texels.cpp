@@ -4,27 +4,12 @@
 #include <cmath>
 
 #include "kiln/image/projection.h"
+#include "kiln/math/sums.h"
 #include "kiln/math/wide.h"
 #include "kiln/parallel/rows.h"
 
 namespace kiln {
 namespace {
-
-double sum_of_magnitudes(const Plane& plane, int y) {
-  constexpr int lanes = lane_count<WideFloat>;
-  constexpr int texels_at_once = 1024;  // so few that their sum in float keeps its digits
-  const float* row = plane.row(y);
-  double sum = 0;
-  for (int begin = 0; begin < plane.width(); begin += texels_at_once) {
-    const int end = std::min(begin + texels_at_once, plane.width());
-    WideFloat partial(0.0f);
-    int x = begin;
-    for (; x + lanes <= end; x += lanes) partial += abs(load_lanes<WideFloat>(row + x));
-    sum += xsimd::hadd(partial);
-    for (; x < end; ++x) sum += std::abs(row[x]);
-  }
-  return sum;
-}
 
 bool any_above(const Plane& plane, int y, float limit) {
   constexpr int lanes = lane_count<WideFloat>;
@@ -68,7 +53,9 @@ std::vector<HotTexel> hot_in_row(const ColorPlanes& latlong, const PowerLimit& l
 PowerLimit share_of_power(const ColorPlanes& latlong, double share) {
   const auto sums = sum_rows(latlong.size.height, 3, [&](int y, std::vector<double>& row) {
     const double solid_angle = latlong_texel_solid_angle(latlong.size, y);
-    for (size_t c = 0; c < 3; ++c) row[c] = sum_of_magnitudes(*latlong.planes[c], y) * solid_angle;
+    for (size_t c = 0; c < 3; ++c) {
+      row[c] = sum_of_magnitudes(latlong.planes[c]->texels_of_row(y)) * solid_angle;
+    }
   });
   return {{share * sums[0], share * sums[1], share * sums[2]}};
 }

@@ -7,6 +7,7 @@
 #include "color_planes.h"
 #include "kiln/image/projection.h"
 #include "kiln/parallel/rows.h"
+#include "kiln/math/sums.h"
 
 namespace kiln {
 namespace {
@@ -102,18 +103,6 @@ std::vector<Vec3<double>> sums_above_horizons(Size size, std::span<const Vec3<do
     });
   }
   return irradiance;
-}
-
-double sum_of(std::span<const float> values) {
-  constexpr size_t lanes = lane_count<WideDouble>;
-  WideDouble sum(0.0);
-  size_t i = 0;
-  for (; i + lanes <= values.size(); i += lanes) {
-    sum += WideDouble::load_unaligned(values.data() + i);
-  }
-  double rest = 0;
-  for (; i < values.size(); ++i) rest += values[i];
-  return xsimd::hadd(sum) + rest;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kiln/core/zeroed_allocator.h"
 #include "kiln/image/projection.h"
 #include "kiln/parallel/rows.h"
 
@@ -103,7 +104,7 @@ struct Strip {
 /// The source as it is seen in strips: [color][strip][row of the band].
 struct StripRows {
   size_t rows = 0;
-  std::array<std::vector<float>, 3> values;
+  std::array<std::vector<float, ZeroedAllocator<float>>, 3> values;
 
   const float* of(size_t color, size_t strip) const { return values[color].data() + strip * rows; }
 };

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kiln/core/zeroed_allocator.h"
 #include "kiln/math/vec.h"
 #include "kiln/math/wide.h"
 
@@ -38,7 +39,7 @@ class SphereField {
   std::array<float, 4> interpolated(size_t corner, const float* across, const float* down) const;
 
   int height_;
-  std::vector<float> values_;
+  std::vector<float, ZeroedAllocator<float>> values_;
 };
 
 }  // namespace kiln

@@ -6,6 +6,7 @@
 #include "color_planes.h"
 #include "kiln/core/error.h"
 #include "kiln/image/projection.h"
+#include "kiln/math/sums.h"
 #include "kiln/math/wide.h"
 #include "kiln/parallel/rows.h"
 
@@ -64,19 +65,6 @@ struct Waves {
   }
 };
 
-double dot_row(std::span<const float> texels, const std::vector<double>& wave) {
-  constexpr size_t lanes = lane_count<WideDouble>;
-  WideDouble sum(0.0);
-  size_t x = 0;
-  for (; x + lanes <= texels.size(); x += lanes) {
-    sum = fma(WideDouble::load_unaligned(texels.data() + x),
-              load_lanes<WideDouble>(wave.data() + x), sum);
-  }
-  double rest = 0;
-  for (; x < texels.size(); ++x) rest += texels[x] * wave[x];
-  return xsimd::hadd(sum) + rest;
-}
-
 /// A row as 2 n + 1 masses at even azimuths, which have the same Fourier coefficients up to n, and
 /// so the same integral against every harmonic up to that order.
 std::vector<Vec3<double>> masses_of_row(const ColorPlanes& latlong, int y, const Waves& waves) {
@@ -85,8 +73,8 @@ std::vector<Vec3<double>> masses_of_row(const ColorPlanes& latlong, int y, const
   for (size_t k = 0; k <= order; ++k) {
     std::array<double, 3> even, odd;
     for (size_t c = 0; c < 3; ++c) {
-      even[c] = dot_row(latlong.planes[c]->texels_of_row(y), waves.cosine[k]);
-      odd[c] = dot_row(latlong.planes[c]->texels_of_row(y), waves.sine[k]);
+      even[c] = weighted_sum(latlong.planes[c]->texels_of_row(y), waves.cosine[k]);
+      odd[c] = weighted_sum(latlong.planes[c]->texels_of_row(y), waves.sine[k]);
     }
     for (size_t p = 0; p < count; ++p) {
       const double angle_rad = 2 * pi * static_cast<double>(k * p) / static_cast<double>(count);

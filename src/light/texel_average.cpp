@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "color_planes.h"
@@ -132,16 +133,17 @@ Layers reduced(const ColorPlanes& source, int times) {
       whole += times * latlong_texel_solid_angle(source.size, y * times + j);
     }
     for (size_t c = 0; c < 3; ++c) {
-      std::vector<double> sums(static_cast<size_t>(size.width), 0.0);
+      std::vector<double> columns(static_cast<size_t>(source.size.width), 0.0);
       for (int j = 0; j < times; ++j) {
         const double weight = latlong_texel_solid_angle(source.size, y * times + j) / whole;
         const float* row = source.planes[c]->row(y * times + j);
-        for (double& sum : sums) {
-          for (int i = 0; i < times; ++i) sum += weight * *row++;
-        }
+        for (double& sum : columns) sum = fma(weight, *row++, sum);
       }
-      float* to = result.layers[c].plane.row(y);
-      for (int x = 0; x < size.width; ++x) to[x] = static_cast<float>(sums[static_cast<size_t>(x)]);
+      const double* from = columns.data();
+      for (float& texel : std::span(result.layers[c].plane.row(y), static_cast<size_t>(size.width))) {
+        texel = static_cast<float>(std::accumulate(from, from + times, 0.0));
+        from += times;
+      }
     }
   });
   return result;

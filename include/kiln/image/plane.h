@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
+#include "kiln/core/zeroed_allocator.h"
 #include "kiln/core/size.h"
 
 namespace kiln {
@@ -17,10 +19,13 @@ class Plane {
   static constexpr int lane_pad = 16;
 
   Plane() = default;
-  explicit Plane(Size size, float value = 0.0f)
+  explicit Plane(Size size)
       : size_(size),
         stride_((size.width + lane_pad - 1) / lane_pad * lane_pad),
-        texels_(static_cast<size_t>(stride_) * static_cast<size_t>(size.height), value) {}
+        texels_(static_cast<size_t>(stride_) * static_cast<size_t>(size.height)) {}
+  Plane(Size size, float value) : Plane(size) {
+    if (value != 0.0f) std::fill(texels_.begin(), texels_.end(), value);
+  }
 
   Size size() const { return size_; }
   int width() const { return size_.width; }
@@ -39,7 +44,7 @@ class Plane {
  private:
   Size size_;
   int stride_ = 0;
-  std::vector<float> texels_;
+  std::vector<float, ZeroedAllocator<float>> texels_;
 };
 
 }  // namespace kiln

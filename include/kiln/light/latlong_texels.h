@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "kiln/core/zeroed_allocator.h"
 #include "kiln/image/layers.h"
 #include "kiln/math/vec.h"
 #include "kiln/math/wide.h"
@@ -62,7 +63,7 @@ class LatLongTexels {
 
   Size size_;
   int stride_ = 0;  ///< width of the bordered image
-  std::vector<float> texels_;
+  std::vector<float, ZeroedAllocator<float>> texels_;
 };
 
 }  // namespace kiln
