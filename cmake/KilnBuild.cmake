@@ -29,6 +29,7 @@ pkg_check_modules(OpenEXR REQUIRED IMPORTED_TARGET OpenEXR)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO)
 pkg_check_modules(Zstandard REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(Deflate REQUIRED IMPORTED_TARGET libdeflate)
 
 # Warnings, instruction set and floating-point contract of our own code.
 # No -ffast-math: NaN keeps meaning NaN, and fused operations are written as fma.

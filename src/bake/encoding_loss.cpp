@@ -90,8 +90,8 @@ EncodingLoss measure_encoding(const std::vector<std::vector<Layers>>& levels,
   for (size_t i = 0; i < images.size(); ++i) {
     all.add(found[i]);
     if (i < of_level) of_first.add(found[i]);
-    count += static_cast<double>(area(images[i]->size)) *
-             static_cast<double>(images[i]->layers.size());
+    count +=
+        static_cast<double>(area(images[i]->size)) * static_cast<double>(images[i]->layers.size());
   }
   const double scale = 1 / std::max(std::abs(mean), 1e-30);
   return {std::sqrt(all.squares / std::max(count, 1.0)) * scale, all.greatest * scale,

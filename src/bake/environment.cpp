@@ -52,9 +52,9 @@ std::vector<Layers> average(const Light& light, const SphereGrid& grid) {
 
 Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
   Computed computed;
-  computed.mean_radiance = mean_radiance(light.masses());
   computed.harmonics =
       project_sh(light.masses(), std::max(2, recipe.sh_order), recipe.axes, light.rotate_deg);
+  computed.mean_radiance = mean_of(computed.harmonics);
   computed.shader = scaled_for_shaders(
       irradiance_over_pi(windowed(up_to(2, computed.harmonics), recipe.sh_window)));
   const LightFilter filter(light, lobes_of(recipe));

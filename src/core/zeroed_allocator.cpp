@@ -12,13 +12,13 @@ namespace {
 constexpr std::size_t large_page = std::size_t{2} << 20;
 
 // Smaller blocks are cheaper from the heap, which gives out again what it was given back.
-bool comes_from_system(std::size_t bytes) { return bytes >= 2 * large_page; }
+bool comes_from_system(std::size_t bytes) { return bytes >= 6 * large_page; }
 
 }  // namespace
 
 void* zeroed_memory(std::size_t bytes, std::size_t alignment) {
   if (!comes_from_system(bytes)) {
-    void* memory = ::operator new(bytes, std::align_val_t{alignment});
+    void* memory = ::operator new (bytes, std::align_val_t{alignment});
     return std::memset(memory, 0, bytes);
   }
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -31,7 +31,7 @@ void free_zeroed_memory(void* memory, std::size_t bytes, std::size_t alignment) 
   if (comes_from_system(bytes)) {
     munmap(memory, bytes);
   } else {
-    ::operator delete(memory, bytes, std::align_val_t{alignment});
+    ::operator delete (memory, bytes, std::align_val_t{alignment});
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
@@ -11,6 +12,7 @@
 #include "kiln/core/error.h"
 #include "openexr_facts.h"
 #include "openexr_file.h"
+#include "openexr_zip.h"
 
 namespace kiln::io {
 namespace {
@@ -84,25 +86,55 @@ void read_rows(Imf::InputPart& part, const std::vector<std::string>& channels, i
   }
 }
 
+bool contains(const Box2i& outer, const Box2i& inner) {
+  return outer.intersects(inner.min) && outer.intersects(inner.max);
+}
+
+// The same where all that is stored is shown: straight into the planes, which are there.
+void read_rows_in_place(Imf::InputPart& part, const std::vector<std::string>& channels, int first,
+                        long long end, Layers& image) {
+  const Box2i stored = part.header().dataWindow();
+  const Imath::V2i corner = part.header().displayWindow().min;
+  const int width = stored.max.x - stored.min.x + 1, rows = static_cast<int>(end - first);
+  Imf::FrameBuffer frame;
+  for (size_t c = 0; c < channels.size(); ++c) {
+    Plane& plane = image.layers[c].plane;
+    float* from = plane.row(first - corner.y) + (stored.min.x - corner.x);
+    frame.insert(
+        channels[c],
+        Imf::Slice::Make(Imf::FLOAT, from, {stored.min.x, first}, width, rows, sizeof(float),
+                         sizeof(float) * static_cast<size_t>(plane.stride())));
+  }
+  part.setFrameBuffer(frame);
+  part.readPixels(first, first + rows - 1);
+}
+
+// At least as many lines as are compressed together, so that none is unpacked twice.
+int rows_of_band(const Imf::Header& header) {
+  return header.compression() == Imf::DWAB_COMPRESSION ? 256 : 32;
+}
+
 // Bands of a large file of lines are unpacked side by side, each through a reader of its own.
 Layers read_part(const std::filesystem::path& path, Imf::InputPart& part,
                  const std::vector<std::string>& channels, const RunTasks& run) {
-  constexpr int rows_of_band = 64;
+  const int rows = rows_of_band(part.header());
   const Box2i stored = part.header().dataWindow();
   const long long end = static_cast<long long>(stored.max.y) + 1;
-  const long long bands = (end - stored.min.y + rows_of_band - 1) / rows_of_band;
+  const long long bands = (end - stored.min.y + rows - 1) / rows;
   Layers image;
   if (!run || bands < 2 || part.header().hasTileDescription()) {
     read_rows(part, channels, stored.min.y, end, image);
     return image;
   }
-  read_rows(part, channels, stored.min.y, static_cast<long long>(stored.min.y) + rows_of_band,
-            image);
+  read_rows(part, channels, stored.min.y, static_cast<long long>(stored.min.y) + rows, image);
+  const bool in_place = contains(part.header().displayWindow(), stored);
+  const bool packed_by_zip = has_zip_rows(part.header());
   run(static_cast<int>(bands - 1), [&](int band) {
     Imf::MultiPartInputFile file(path.c_str(), 0, false);
     Imf::InputPart own(file, 0);
-    const long long first = stored.min.y + (band + 1LL) * rows_of_band;
-    read_rows(own, channels, static_cast<int>(first), std::min(end, first + rows_of_band), image);
+    const long long first = stored.min.y + (band + 1LL) * rows;
+    const auto read = !in_place ? read_rows : packed_by_zip ? read_zip_rows : read_rows_in_place;
+    read(own, channels, static_cast<int>(first), std::min(end, first + rows), image);
   });
   return image;
 }

@@ -58,6 +58,33 @@ void store_row(std::span<const float> row, size_t step, std::byte* stored, Narro
   }
 }
 
+// Whether none is beyond the range, nor NaN: then none has to be looked at one by one.
+bool all_within(std::span<const float> row, float least, float most) {
+  bool within = true;
+  for (const float value : row) within &= static_cast<bool>((value >= least) & (value <= most));
+  return within;
+}
+
+template <class Stored>
+Stored rounded(float value) {
+  return static_cast<Stored>(
+      std::fma(static_cast<double>(value), std::numeric_limits<Stored>::max(), 0.5));
+}
+
+template <class Stored>
+void store_integers(std::span<const float> row, size_t step, std::byte* stored, WriteFacts& facts) {
+  if (all_within(row, 0.0f, 1.0f)) return store_row<Stored>(row, step, stored, rounded<Stored>);
+  store_row<Stored>(row, step, stored,
+                    [&](float value) { return narrowed_to<Stored>(value, facts); });
+}
+
+void store_halves(std::span<const float> row, size_t step, std::byte* stored, WriteFacts& facts) {
+  if (all_within(row, -half_max, half_max)) {
+    return store_row<half>(row, step, stored, [](float value) { return half(value); });
+  }
+  store_row<half>(row, step, stored, [&](float value) { return narrowed(value, facts); });
+}
+
 }  // namespace
 
 float clamped(float value, float max, WriteFacts& facts) {
@@ -115,16 +142,13 @@ void load_samples(const std::byte* stored, PixelType type, size_t step, std::spa
 
 void store_samples(std::span<const float> row, PixelType type, size_t step, std::byte* stored,
                    WriteFacts& facts) {
-  const auto narrow8 = [&](float value) { return narrowed_to<uint8_t>(value, facts); };
-  const auto narrow16 = [&](float value) { return narrowed_to<uint16_t>(value, facts); };
-  const auto narrow_half = [&](float value) { return narrowed(value, facts); };
   switch (type) {
     case PixelType::Uint8:
-      return store_row<uint8_t>(row, step, stored, narrow8);
+      return store_integers<uint8_t>(row, step, stored, facts);
     case PixelType::Uint16:
-      return store_row<uint16_t>(row, step, stored, narrow16);
+      return store_integers<uint16_t>(row, step, stored, facts);
     case PixelType::Half:
-      return store_row<half>(row, step, stored, narrow_half);
+      return store_halves(row, step, stored, facts);
     case PixelType::Float:
     case PixelType::Rgb10a2:
     case PixelType::Rgbd8:

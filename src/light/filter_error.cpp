@@ -15,6 +15,9 @@ std::uint32_t spread_texels(Size source) {
   return static_cast<std::uint32_t>(std::clamp(budget / area(source), 1LL, 10LL));
 }
 
+// Wider lobes are so smooth that the texel beside another says nothing new.
+constexpr double widest_of_edges = 0.25;
+
 struct TexelAt {
   int image, x, y;
 };
@@ -54,6 +57,7 @@ std::vector<TexelAt> choose_texels(const FilteredLevel& level, std::uint32_t spr
   const TexelAt best = brightest_of(level);
   const Size size = level.images.front().size;
   texels.push_back(best);
+  if (level.lobe.alpha > widest_of_edges) return texels;
   texels.push_back({best.image, best.x > 0 ? best.x - 1 : std::min(1, size.width - 1), best.y});
   return texels;
 }

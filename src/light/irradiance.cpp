@@ -6,8 +6,8 @@
 
 #include "color_planes.h"
 #include "kiln/image/projection.h"
-#include "kiln/parallel/rows.h"
 #include "kiln/math/sums.h"
+#include "kiln/parallel/rows.h"
 
 namespace kiln {
 namespace {

@@ -126,6 +126,10 @@ SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes
   return result;
 }
 
+Vec3<double> mean_of(const SphericalHarmonics& sum) {
+  return sum.coefficients.front() * (1 / std::sqrt(4 * pi));
+}
+
 SphericalHarmonics up_to(int order, const SphericalHarmonics& sum) {
   const auto end = sum.coefficients.begin() + (order + 1) * (order + 1);
   return {order, {sum.coefficients.begin(), end}};

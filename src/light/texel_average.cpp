@@ -140,7 +140,8 @@ Layers reduced(const ColorPlanes& source, int times) {
         for (double& sum : columns) sum = fma(weight, *row++, sum);
       }
       const double* from = columns.data();
-      for (float& texel : std::span(result.layers[c].plane.row(y), static_cast<size_t>(size.width))) {
+      for (float& texel :
+           std::span(result.layers[c].plane.row(y), static_cast<size_t>(size.width))) {
         texel = static_cast<float>(std::accumulate(from, from + times, 0.0));
         from += times;
       }

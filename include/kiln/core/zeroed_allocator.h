@@ -31,7 +31,8 @@ struct ZeroedAllocator {
   }
   template <class U, class... Args>
   void construct(U* at, Args&&... args) {
-    if constexpr (sizeof...(Args) > 0) ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+    if constexpr (sizeof...(Args) > 0)
+      ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
   }
   friend bool operator==(ZeroedAllocator, ZeroedAllocator) { return true; }
 };

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "kiln/core/zeroed_allocator.h"
 #include "kiln/core/size.h"
+#include "kiln/core/zeroed_allocator.h"
 
 namespace kiln {
 

@@ -36,6 +36,9 @@ SphericalHarmonics project_sh(const Layers& latlong, int order, const Axes& axes
 ///         Environment Maps", eq. 8 and 9
 SphericalHarmonics irradiance_over_pi(const SphericalHarmonics& radiance);
 
+/// The mean over the sphere of what is expanded: band 0 is as exact as the sum over texels.
+Vec3<double> mean_of(const SphericalHarmonics& sum);
+
 /// The bands up to that order, which the sum has.
 SphericalHarmonics up_to(int order, const SphericalHarmonics& sum);
 
