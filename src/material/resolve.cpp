@@ -35,7 +35,8 @@ void note_missing(const SlotMaps& maps, Workflow workflow, Texts& notes) {
   }
 }
 
-void note_unread(const SlotMaps& maps, const std::vector<Slot>& read, Workflow workflow, Texts& notes) {
+void note_unread(const SlotMaps& maps, const std::vector<Slot>& read, Workflow workflow,
+                 Texts& notes) {
   for (const auto& [slot, map] : maps) {
     if (std::count(read.begin(), read.end(), slot)) continue;
     if (slot == Slot::Emissive || slot == Slot::Opacity) {
@@ -75,7 +76,9 @@ void warn_of_repairs(Slot slot, Bounds bounds, const Repairs::OfSlot& repairs, T
   }
 }
 
-void append(const Texts& more, Texts& texts) { texts.insert(texts.end(), more.begin(), more.end()); }
+void append(const Texts& more, Texts& texts) {
+  texts.insert(texts.end(), more.begin(), more.end());
+}
 
 void require_texels(const SlotMaps& maps, const std::vector<Slot>& read) {
   for (const Slot slot : read) {

@@ -96,8 +96,8 @@ std::array<Plane, 3> read_normal(RowsInWork& work, const NormalDecoding& decodin
   }
   SlotMap& map = found->second;
   if (map.value) map.image = one_texel(*map.value);
-  DecodedNormals decoded = with_context("normal " + map.source,
-                                        [&] { return decode_normals(map.image, decoding); });
+  DecodedNormals decoded =
+      with_context("normal " + map.source, [&] { return decode_normals(map.image, decoding); });
   map.image.layers.clear();
   if (map.value) {
     for (Plane& plane : decoded.normal) plane = spread(std::move(plane), work.size);
