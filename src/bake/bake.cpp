@@ -45,7 +45,8 @@ struct BakeList {
 };
 
 // THE list: help, parsing, docs, the pipeline's schema and the contract tests follow from it.
-using Bakes = BakeList<LutBake, EnvironmentBake, PreviewBake>;
+using Bakes = BakeList<LutBake, EnvironmentBake, PreviewBake, DeriveBake, ConvertBake, PackBake,
+                       UnpackBake, NormalBake>;
 
 }  // namespace
 

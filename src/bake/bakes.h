@@ -3,6 +3,7 @@
 
 #include "kiln/bake/bake.h"
 #include "kiln/brdf/fresnel.h"
+#include "kiln/material/workflow.h"
 
 namespace kiln {
 
@@ -72,6 +73,92 @@ struct PreviewBake {
   static Params<Settings> params();
   static Needs needs(const Settings& settings);
   static void check(const Settings& settings, const SurfaceChoice& surface);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// Quantities of a set's BRDF, texel by texel.
+struct DeriveBake {
+  static constexpr const char* name = "derive";
+  static constexpr const char* summary = "F0, diffuse and directional albedo, alpha of each texel";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  struct Settings {
+    std::string quantities = "f0,diffuse_albedo,alpha,directional_albedo,energy_compensation";
+    std::string angles = "0,60,80";
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// The maps of a set as another workflow wants them.
+struct ConvertBake {
+  static constexpr const char* name = "convert";
+  static constexpr const char* summary = "a set's maps as another workflow wants them";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  enum class Method { Solve, Lossless, Khronos };
+  struct Settings {
+    Workflow to = Workflow::MetalRough;
+    Method method = Method::Solve;
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// Several maps in the channels of one file.
+struct PackBake {
+  static constexpr const char* name = "pack";
+  static constexpr const char* summary = "maps in the channels of files, as an engine wants them";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  struct Settings {
+    std::string preset = "gltf";
+    std::string layout;
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// Each map of a set in a file of its own.
+struct UnpackBake {
+  static constexpr const char* name = "unpack";
+  static constexpr const char* summary = "each map in a file of its own, bit for bit";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  struct Settings {
+    std::string maps = "all";
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// A normal map in another convention, or from height.
+struct NormalBake {
+  static constexpr const char* name = "normal";
+  static constexpr const char* summary = "normal map in another convention, or from height";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  enum class From { Normal, Height };
+  enum class To { OpenGl, DirectX };
+  struct Settings {
+    From from = From::Normal;
+    To to = To::OpenGl;
+    bool two_channel = false;
+    bool renormalize = false;
+    double height_scale = 0.01;
+    double tile_size = 1;
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 

@@ -130,8 +130,8 @@ int run_one(const Verb& verb, std::vector<std::string> arguments) {
 }  // namespace
 
 std::vector<Verb> all_verbs() {
-  return {run_verb(),     lut_verb(),     verify_verb(), env_verb(),
-          preview_verb(), inspect_verb(), diff_verb(),   list_verb()};
+  return {run_verb(),  lut_verb(),     verify_verb(), env_verb(), preview_verb(),
+          bake_verb(), inspect_verb(), diff_verb(),   list_verb()};
 }
 
 int run_command(std::vector<std::string> arguments) {
@@ -152,6 +152,11 @@ int run_command(std::vector<std::string> arguments) {
   const Verb* verb = find_verb(verbs, first);
   if (!verb) refuse_verb(verbs, first);
   arguments.erase(arguments.begin());
+  if (verb->narrowed && !arguments.empty() && !arguments.front().starts_with("-")) {
+    const Verb narrowed = verb->narrowed(arguments.front());
+    arguments.erase(arguments.begin());
+    return run_one(narrowed, std::move(arguments));
+  }
   return run_one(*verb, std::move(arguments));
 }
 

@@ -27,6 +27,8 @@ struct Verb {
   std::string summary;
   /// Declares the verb's arguments and returns what to do with them.
   std::function<Action(CLI::App&)> declare;
+  /// Of a verb whose first argument decides the others: the verb that it amounts to.
+  std::function<Verb(const std::string& word)> narrowed = {};
 };
 
 Verb run_verb();
@@ -34,6 +36,7 @@ Verb lut_verb();
 Verb verify_verb();
 Verb env_verb();
 Verb preview_verb();
+Verb bake_verb();
 Verb inspect_verb();
 Verb diff_verb();
 Verb list_verb();

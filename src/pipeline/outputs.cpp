@@ -20,16 +20,9 @@ bool is_for_viewing(std::string_view format) { return format == "png" || format 
 
 bool holds_alpha(std::string_view format) { return format != "jpeg" && format != "hdr"; }
 
-bool is_image_name(const fs::path& path) {
-  const std::string extension = kebab(path.extension().string());
-  return std::any_of(writable_formats().begin(), writable_formats().end(), [&](const auto& format) {
-    return std::count(format.extensions.begin(), format.extensions.end(), extension) > 0;
-  });
-}
-
 void check_type(Product product, std::optional<PixelType> type, const fs::path& path) {
   const WritableFormat& format = writable_format(path);
-  if (product == Product::Numbers && format.name == "jpeg") {
+  if ((product == Product::Numbers || product == Product::Maps) && format.name == "jpeg") {
     throw Error(Fault::Usage,
                 "jpg loses numbers; expected exr, png, hdr, tif, dds, ktx2, npy, csv or h");
   }
@@ -210,6 +203,13 @@ std::string output_name(const Task& task, const Artifact& artifact) {
 
 }  // namespace
 
+bool names_an_image(const fs::path& path) {
+  const std::string extension = kebab(path.extension().string());
+  return std::any_of(writable_formats().begin(), writable_formats().end(), [&](const auto& format) {
+    return std::count(format.extensions.begin(), format.extensions.end(), extension) > 0;
+  });
+}
+
 void check_output(const Task& task) {
   const fs::path out(task.out);
   if (task.out.empty()) throw Error(Fault::Usage, "out: found nothing, expected a file or folder");
@@ -221,11 +221,15 @@ void check_output(const Task& task) {
   }
   const std::string extension = out.extension().string();
   if (task.product == Product::Folder) {
-    if (is_image_name(out)) {
+    if (names_an_image(out)) {
       throw Error(Fault::Usage, fmt::format("out: found '{}', expected a folder: {} makes several "
                                             "files",
                                             task.out, task.bake));
     }
+    return;
+  }
+  if (task.product == Product::Maps) {
+    if (names_an_image(out)) check_type(task.product, task.output.type, out);
     return;
   }
   if (!out.has_filename() || extension.empty()) {

@@ -72,7 +72,8 @@ std::string with_set(const std::string& out, const std::string& set) {
 // One name for one file: "a/./b" and "a/b/" are "a/b".
 std::string clean_name(const std::string& out, Product product) {
   std::string name = fs::path(out).lexically_normal().generic_string();
-  if (product == Product::Folder && name.size() > 1 && name.back() == '/') name.pop_back();
+  const bool folder = product == Product::Folder || product == Product::Maps;
+  if (folder && name.size() > 1 && name.back() == '/') name.pop_back();
   return name;
 }
 

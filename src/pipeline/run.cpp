@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/pipeline/run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <new>
@@ -9,6 +10,7 @@
 #include "inputs.h"
 #include "kiln/store/publish.h"
 #include "outputs.h"
+#include "sheet_files.h"
 
 namespace kiln {
 namespace {
@@ -111,9 +113,7 @@ class Runner {
 
   LoadedSet load(const PlannedSet& set) {
     LoadedSet loaded = load_set(set, plan_.color, config_);
-    for (const std::string& warning : loaded.record.warnings) warn(set.name + ": " + warning);
-    if (watcher_.loaded) watcher_.loaded(loaded.record);
-    report_.sets.push_back(loaded.record);
+    tell(loaded.record);
     return loaded;
   }
 
@@ -170,13 +170,39 @@ class Runner {
     if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
     if (task.needs.albedo) ingredients.albedo = albedo_.get().get();
     ingredients.coded = coded_as;
+    std::optional<SetReader> reader;
+    if (task.needs.maps.any()) {
+      reader.emplace(plan_.sets[*task.set], plan_.color, config_, task.needs.maps);
+      ingredients.maps = &reader->bands();
+    }
     Baked baked = task.recipe->bake(ingredients);
     for (Artifact& artifact : baked.artifacts) heed_signals(artifact.bands);
     record.notes = baked.notes;
     record.figures = baked.figures;
-    const Written written = write_outputs(plan_, task, baked, config_);
-    record.outputs = written.outputs;
+    add(write_outputs(plan_, task, baked, config_), record);
+    if (!reader) return;
+    if (baked.sheet) {
+      const auto heed = [this] {
+        if (interrupted()) throw Error(Fault::Interrupted, "stopped by a signal");
+      };
+      add(write_sheet(plan_, task, *baked.sheet, *reader, config_, heed), record);
+    }
+    tell(reader->record());
+  }
+
+  static void add(const Written& written, TaskRecord& record) {
+    record.outputs.insert(record.outputs.end(), written.outputs.begin(), written.outputs.end());
     record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
+  }
+
+  // Each set once, however many of its tasks read it.
+  void tell(const SetRecord& set) {
+    const bool told = std::any_of(report_.sets.begin(), report_.sets.end(),
+                                  [&](const SetRecord& other) { return other.name == set.name; });
+    if (told) return;
+    for (const std::string& warning : set.warnings) warn(set.name + ": " + warning);
+    if (watcher_.loaded) watcher_.loaded(set);
+    report_.sets.push_back(set);
   }
 
   bool interrupted() {

@@ -85,6 +85,7 @@ SetReader::SetReader(const PlannedSet& set, const ColorChoice& color, const Colo
   open(needed_maps(needs));
   decide_size(needs);
   bands_.name = set.name;
+  bands_.working = color.working;
   bands_.stored = [this](const MapRows& rows) { return stored(rows); };
   bands_.svbrdf = [this](const MapRows& rows) { return svbrdf(rows); };
   bands_.whole = [this](Slot slot) {
@@ -124,7 +125,7 @@ void SetReader::open(const std::vector<PlannedMap>& maps) {
     const std::string color = decide_color(map, facts, added.from);
     const std::string name = map.path.filename().string();
     bands_.given.push_back({map.slot, name, false, facts.size, static_cast<int>(added.names.size()),
-                            std::string(pixel_type_name(facts.type))});
+                            std::string(pixel_type_name(facts.type)), added.from});
     record_.maps.push_back(
         {std::string(slot_name(map.slot)), name, map.channels, map.reason, color});
   }
@@ -135,7 +136,8 @@ void SetReader::add_constant(const PlannedMap& map) {
   constant.value = map.value;
   constant.encoding = map.encoding;
   constant.source = "constant";
-  bands_.given.push_back({map.slot, "constant", true, {1, 1}, slot_facts(map.slot).channels, ""});
+  bands_.given.push_back(
+      {map.slot, "constant", true, {1, 1}, slot_facts(map.slot).channels, "", ""});
   record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, ""});
 }
 

@@ -29,7 +29,8 @@ enum class Scope { Once, PerSet };
 enum class Product {
   Numbers,  ///< a file of numbers, written as they are
   Picture,  ///< a file of radiance; formats made for viewing (png, jpg) get it through the display
-  Folder    ///< a folder of named files of numbers
+  Folder,   ///< a folder of named files of numbers
+  Maps      ///< a folder of maps, or a pattern with "{suffix}" in the place of a map's name
 };
 
 /// What a bake says of itself. Help, parsing, docs and tests follow from it.
@@ -97,10 +98,20 @@ struct Artifact {
   std::vector<std::string> channel_names = {};  ///< of tables: "scale", "bias"
   /// In place of the image, where it has a size: what need not be held whole. Numbers only.
   ImageBands bands = {};
+  /// Of colours: the space that they are in, and the one that the file holds. Empty: numbers.
+  std::string color_from = {}, color_to = {};
+};
+
+/// Files of one size that are made together, a band of rows at a time, from the maps of a set.
+struct Sheet {
+  std::vector<Artifact> files;  ///< their images have no texels: names of layers
+  /// The same rows of every file. May be called from many threads at once.
+  std::function<std::vector<Layers>(const MapRows&)> make;
 };
 
 struct Baked {
   std::vector<Artifact> artifacts;
+  std::optional<Sheet> sheet = {};                      ///< of bakes that read maps band by band
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };

@@ -21,6 +21,7 @@ struct GivenMap {
   Size size{1, 1};          ///< of its own file
   int channels = 1;         ///< that the slot takes of it
   std::string stored_type;  ///< of its samples: "uint8", "half", ...; empty: a constant
+  std::string color_space;  ///< that its colours are stored in; empty: numbers
 };
 
 /// Rows of a set as its files hold them. What they come to, MapBands tells.
@@ -37,8 +38,9 @@ struct MapRows {
 /// The maps of a set, read from the top and never held whole. The functions may be called from many
 /// threads at once.
 struct MapBands {
-  std::string name;  ///< of the set
-  Size size;         ///< of every map, once resampled: the largest's
+  std::string name;     ///< of the set
+  std::string working;  ///< the colour space of what is resolved
+  Size size;            ///< of every map, once resampled: the largest's
   std::vector<GivenMap> given;
   std::optional<NormalForm> normal;  ///< how its normal map, if any, is stored
 
