@@ -8,6 +8,7 @@
 #include "kiln/core/error.h"
 #include "kiln/image/resample.h"
 #include "kiln/material/workflow.h"
+#include "slot_values.h"
 #include "workflow_reads.h"
 
 namespace kiln {
@@ -19,6 +20,7 @@ struct Resolution {
   WorkflowSettings settings;
   std::vector<Slot> read;  ///< the given slots that matter
   Size size;
+  bool y_down = false;  ///< the normal map was DirectX's, and with it the angles of anisotropy
   Resolved result;
 
   template <class... Args>
@@ -42,6 +44,10 @@ Slot choose(const Resolution& work, const std::vector<Slot>& alternatives) {
 const SlotMap* given_image(const Resolution& work, Slot slot) {
   const auto found = work.maps.find(slot);
   return found == work.maps.end() || found->second.value ? nullptr : &found->second;
+}
+
+bool is_read(const Resolution& work, Slot slot) {
+  return std::count(work.read.begin(), work.read.end(), slot) > 0;
 }
 
 void check_images(const Resolution& work) {
@@ -263,15 +269,14 @@ std::array<Plane, 3> read_normal(Resolution& work) {
   }
   DecodedNormals decoded = with_context("normal " + map.source, [&] {
     return decode_normals(map.image, {NormalConvention::OpenGl, work.settings.normal_zero,
-                                      work.settings.normal_range});
+                                      work.settings.normal_range, map.decoding.scale[0]});
   });
   map.image.layers.clear();
   if (!constant) {
     note_normals(work, decoded);
     note_fit(work, Slot::Normal, decoded.normal[0].size());
-    if (settle_convention(work, decoded.normal) == NormalConvention::DirectX) {
-      flip_y(decoded.normal);
-    }
+    work.y_down = settle_convention(work, decoded.normal) == NormalConvention::DirectX;
+    if (work.y_down) flip_y(decoded.normal);
   }
   if (decoded.normal[0].size() == work.size) return std::move(decoded.normal);
   for (Plane& plane : decoded.normal) plane = fit(std::move(plane), work.size);
@@ -304,6 +309,43 @@ Plane read_level(Resolution& work) {
   return plane;
 }
 
+// The same tinted and weighed: one plane, or three where there is a tint.
+std::vector<Plane> read_dielectric(Resolution& work) {
+  std::vector<Plane> f0;
+  f0.push_back(read_level(work));
+  if (is_read(work, Slot::SpecularTint)) {
+    std::vector<Plane> tinted = read_slot(work, Slot::SpecularTint);
+    for (Plane& plane : tinted) multiply(plane, f0[0], 1.0f);
+    f0 = std::move(tinted);
+  }
+  if (is_read(work, Slot::SpecularWeight)) {
+    const Plane weight = std::move(read_slot(work, Slot::SpecularWeight)[0]);
+    for (Plane& plane : f0) multiply(plane, weight, 1.0f);
+  }
+  return f0;
+}
+
+// Angles turn round, so it is their direction that is resampled.
+Plane read_angle(Resolution& work) {
+  Plane angle = std::move(take_planes(work, Slot::AnisotropyAngle)[0]);
+  if (work.y_down) for_each_texel(angle, [](float value) { return -value; });
+  if (angle.size() == Size{1, 1}) return fit(std::move(angle), work.size);
+  note_fit(work, Slot::AnisotropyAngle, angle.size());
+  const long long unreadable = replace_unreadable(angle);
+  if (unreadable > 0) work.warn("anisotropy_angle: {} are NaN or Inf, made 0", unreadable);
+  return resample_angle(std::move(angle), work.size);
+}
+
+// Strength as an SVBRDF holds it; models that widen the lobe by it take the roughness along.
+void read_anisotropy(Resolution& work) {
+  if (!is_read(work, Slot::Anisotropy)) return;
+  Svbrdf& svbrdf = work.result.svbrdf;
+  const AnisotropyEncoding encoding = work.maps.at(Slot::Anisotropy).decoding.anisotropy;
+  svbrdf.anisotropy = std::move(read_slot(work, Slot::Anisotropy)[0]);
+  bring_to_shape(encoding, svbrdf.roughness, svbrdf.anisotropy);
+  if (is_read(work, Slot::AnisotropyAngle)) svbrdf.anisotropy_angle = read_angle(work);
+}
+
 std::array<Plane, 3> colors(std::vector<Plane> planes) {
   return {std::move(planes[0]), std::move(planes[1]), std::move(planes[2])};
 }
@@ -312,11 +354,11 @@ std::array<Plane, 3> colors(std::vector<Plane> planes) {
 void split_by_metallic(Resolution& work) {
   Svbrdf& svbrdf = work.result.svbrdf;
   const Plane metallic = std::move(read_slot(work, Slot::Metallic)[0]);
-  const Plane dielectric = read_level(work);
+  const std::vector<Plane> dielectric = read_dielectric(work);
   for (int c = 0; c < 3; ++c) {
     svbrdf.f0[c] = Plane(work.size);
     for (int y = 0; y < work.size.height; ++y) {
-      const float *m = metallic.row(y), *d = dielectric.row(y);
+      const float *m = metallic.row(y), *d = dielectric[dielectric.size() == 3 ? c : 0].row(y);
       float *base = svbrdf.diffuse_color[c].row(y), *f0 = svbrdf.f0[c].row(y);
       for (int x = 0; x < work.size.width; ++x) {
         f0[x] = d[x] * (1.0f - m[x]) + base[x] * m[x];
@@ -335,19 +377,23 @@ void read_colors(Resolution& work) {
   if (specular == Slot::SpecularColor) {
     svbrdf.f0 = colors(read_slot(work, specular));
   } else {
-    svbrdf.f0[0] = read_level(work);
-    svbrdf.f0[1] = svbrdf.f0[2] = svbrdf.f0[0];
+    std::vector<Plane> dielectric = read_dielectric(work);
+    while (dielectric.size() < 3) dielectric.push_back(dielectric[0]);
+    svbrdf.f0 = colors(std::move(dielectric));
   }
 }
 
 }  // namespace
 
 Resolved resolve(SlotMaps maps, const WorkflowSettings& settings) {
-  Resolution work{std::move(maps), settings, {}, {}, {}};
+  Resolution work{std::move(maps), settings, {}, {}, false, {}};
   std::vector<Slot> given;
   for (const auto& [slot, map] : work.maps) given.push_back(slot);
   work.read = slots_read(settings.workflow, given);
   check_images(work);
+  for (const Slot slot : work.read) {
+    if (work.maps.count(slot)) decode_slot(slot, work.maps.at(slot));
+  }
   note_missing(work);
   note_unread(work);
   work.size = largest_size(work);
@@ -356,6 +402,7 @@ Resolved resolve(SlotMaps maps, const WorkflowSettings& settings) {
   svbrdf.normal = read_normal(work);
   svbrdf.ambient_occlusion = std::move(read_slot(work, Slot::AmbientOcclusion)[0]);
   svbrdf.roughness = read_roughness(work);
+  read_anisotropy(work);
   read_colors(work);
   return std::move(work.result);
 }

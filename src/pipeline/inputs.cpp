@@ -8,6 +8,7 @@
 
 #include "color_reading.h"
 #include "kiln/io/image_file.h"
+#include "map_colors.h"
 
 namespace kiln {
 namespace {
@@ -84,9 +85,11 @@ class SetLoader {
     SlotMap filled;
     filled.value = map.value;
     filled.encoding = map.encoding;
+    filled.decoding = map.decoding;
     filled.source = "constant";
+    const std::string color = constant_to_working(filled, map, config_, color_.working);
     maps[map.slot] = std::move(filled);
-    record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, ""});
+    record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, color});
   }
 
   void add_file(const PlannedMap& map, SlotMaps& maps) {
@@ -98,8 +101,10 @@ class SetLoader {
                                 [&] { return pick_slot(file.image, map.slot, map.channels); });
     filled.convention = map.convention;
     filled.encoding = map.encoding;
+    filled.decoding = map.decoding;
     filled.source = name;
     const std::string color = bring_to_working(map, file.facts, filled.image);
+    if (slot_facts(map.slot).content == Content::Color) filled.decoding = {};
     maps[map.slot] = std::move(filled);
     record_.maps.push_back(
         {std::string(slot_name(map.slot)), name, map.channels, map.reason, color});
@@ -120,7 +125,7 @@ class SetLoader {
     image = as_rgb(std::move(image));
     const std::string from = space_of(map.color_space, facts.type);
     if (map.color_space.empty()) compare_with_tag(map, facts, from);
-    config_.convert(image, from, color_.working);
+    colors_to_working(image, from, map, config_, color_.working);
     return conversion_text(from, color_.working);
   }
 

@@ -34,14 +34,19 @@ PlannedMap planned(const MapSource& source, const fs::path& folder, SpecularEnco
   return map;
 }
 
+std::string channels_of(const MapChoice& choice) {
+  if (choice.decoding.angle == AngleEncoding::Direction) return "rg";
+  return slot_facts(choice.slot).channels == 3 ? "rgb" : "r";
+}
+
 PlannedMap planned(const MapChoice& choice, SpecularEncoding encoding) {
   PlannedMap map;
   map.slot = choice.slot;
   map.path = choice.path;
-  map.channels = choice.channel.empty() ? (slot_facts(choice.slot).channels == 3 ? "rgb" : "r")
-                                        : choice.channel;
+  map.channels = choice.channel.empty() ? channels_of(choice) : choice.channel;
   map.convention = choice.convention;
   map.encoding = choice.encoding.value_or(encoding);
+  map.decoding = choice.decoding;
   map.color_space = choice.color_space;
   map.value = choice.value;
   map.reason = "stated";

@@ -35,6 +35,7 @@ struct NormalDecoding {
   NormalConvention convention = NormalConvention::OpenGl;  ///< Auto is read as OpenGl
   NormalZero zero = NormalZero::Both;
   NormalRange range = NormalRange::Auto;
+  float strength = 1;  ///< factor of x and y, before normals are made unit
 };
 
 struct DecodedNormals {

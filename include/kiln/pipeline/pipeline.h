@@ -45,6 +45,7 @@ struct MapChoice {
   std::string color_space;  ///< empty: by type
   std::optional<std::array<float, 3>> value;
   std::optional<SpecularEncoding> encoding;
+  SlotDecoding decoding = {};
   Place place = {};
 };
 

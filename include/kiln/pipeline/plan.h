@@ -22,7 +22,8 @@ struct PlannedMap {
   bool if_present = false;     ///< left out where the file has no such channel
   NormalConvention convention = NormalConvention::Auto;
   SpecularEncoding encoding = SpecularEncoding::Level;
-  std::string color_space;  ///< as stated; empty: by the file's type
+  SlotDecoding decoding = {};  ///< of colours, scale and offset count in their own linear space
+  std::string color_space;     ///< as stated; empty: by the file's type
   std::optional<std::array<float, 3>> value;
   std::string reason;
 };
