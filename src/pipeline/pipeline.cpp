@@ -189,8 +189,10 @@ std::map<std::string, std::string> read_vars(
   std::vector<std::string> known;
   with(root, "vars", [&](const Node& node) {
     for (const Entry& entry : node.entries) {
-      if (snake(entry.key) == "set") {
-        mistakes.add(entry.place, "'set' is the name of the texture set; choose another variable");
+      if (snake(entry.key) == "set" || snake(entry.key) == "udim") {
+        mistakes.add(entry.place, fmt::format("'{}' is what a texture set is called; choose "
+                                              "another variable",
+                                              entry.key));
       }
       vars[snake(entry.key)] = entry.value.text;
       known.push_back(entry.key);

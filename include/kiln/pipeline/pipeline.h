@@ -55,6 +55,7 @@ struct SetChoice {
   std::string glob;
   std::filesystem::path path;
   std::string name;
+  std::string chosen = {};  ///< the one of its sets that is wanted; empty: all
   std::vector<MapChoice> maps;
   std::vector<std::string> naming;  ///< empty: every scheme
   std::optional<Workflow> workflow;

@@ -29,7 +29,8 @@ struct PlannedMap {
 };
 
 struct PlannedSet {
-  std::string name;
+  std::string name;  ///< of a UDIM tile: NAME.1001
+  std::optional<int> tile;
   std::string source;  ///< the folder, or where the set is written
   WorkflowSettings reading;
   std::string workflow_reason;
