@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "kiln/core/error.h"
-#include "kiln/image/resample.h"
 
 namespace kiln {
 namespace {
@@ -42,30 +41,34 @@ float turns_to_radians(AngleEncoding encoding) {
 
 float angle_of(float x, float y) { return std::atan2(2 * y - 1, 2 * x - 1); }
 
-void directions_to_angle(SlotMap& map) {
-  if (map.value) {
-    map.value->fill(angle_of((*map.value)[0], (*map.value)[1]));
-    return;
-  }
-  std::vector<Layer>& layers = map.image.layers;
-  if (layers.size() < 2) {
-    throw Error(Fault::Input, "anisotropy_angle " + map.source +
-                                  ": a direction has two channels, the map has one");
-  }
-  for (int y = 0; y < map.image.size.height; ++y) {
-    float* u = layers[0].plane.row(y);
-    const float* v = layers[1].plane.row(y);
-    for (int x = 0; x < map.image.size.width; ++x) u[x] = angle_of(u[x], v[x]);
-  }
-  layers.resize(1);
+// Planes of an image that hold an angle: one, or the two of a direction.
+const Plane& second_plane(const SlotMap& map) {
+  if (map.decoding.angle != AngleEncoding::Direction) return map.image.layers[0].plane;
+  if (map.image.layers.size() > 1) return map.image.layers[1].plane;
+  throw Error(Fault::Input,
+              "anisotropy_angle " + map.source + ": a direction has two channels, the map has one");
 }
 
 void decode_angle(SlotMap& map) {
-  const SlotDecoding& decoding = map.decoding;
-  const bool direction = decoding.angle == AngleEncoding::Direction;
-  if (direction) directions_to_angle(map);
-  const float unit = direction ? 1.0f : turns_to_radians(decoding.angle);
-  for_each_value(map, [&](float value, int) { return unit * value + decoding.offset[0]; });
+  const bool direction = map.decoding.angle == AngleEncoding::Direction;
+  const float unit = direction ? 1.0f : turns_to_radians(map.decoding.angle);
+  const float offset = map.decoding.offset[0];
+  const auto radians = [=](float u, float v) {
+    return offset + (direction ? angle_of(u, v) : unit * u);
+  };
+  if (map.value) return map.value->fill(radians((*map.value)[0], (*map.value)[1]));
+  const Plane &first = map.image.layers[0].plane, &second = second_plane(map);
+  Layers axes = make_layers(map.image.size, {"R", "G"});
+  for (int y = 0; y < axes.size.height; ++y) {
+    const float *u = first.row(y), *v = second.row(y);
+    float *cosine = axes.layers[0].plane.row(y), *sine = axes.layers[1].plane.row(y);
+    for (int x = 0; x < axes.size.width; ++x) {
+      const float twice = 2 * radians(u[x], v[x]);
+      cosine[x] = std::cos(twice);
+      sine[x] = std::sin(twice);
+    }
+  }
+  map.image = std::move(axes);
 }
 
 // What was below 0 stays so, and is clamped and counted later.
@@ -118,19 +121,14 @@ long long replace_unreadable(Plane& plane) {
   return count;
 }
 
-Plane resample_angle(Plane angle, Size size) {
-  if (angle.size() == size) return angle;
-  Plane sine = angle;
-  for_each_texel(sine, [](float value) { return std::sin(2 * value); });
-  for_each_texel(angle, [](float value) { return std::cos(2 * value); });
-  Plane result = resample(angle, size);
-  const Plane sines = resample(sine, size);
-  for (int y = 0; y < size.height; ++y) {
-    float* v = result.row(y);
-    const float* s = sines.row(y);
-    for (int x = 0; x < size.width; ++x) v[x] = 0.5f * std::atan2(s[x], v[x]);
+Plane angle_of_axes(const Layers& axes) {
+  Plane angle = axes.layers[0].plane;
+  for (int y = 0; y < angle.height(); ++y) {
+    const float* sine = axes.layers[1].plane.row(y);
+    float* v = angle.row(y);
+    for (int x = 0; x < angle.width(); ++x) v[x] = 0.5f * std::atan2(sine[x], v[x]);
   }
-  return result;
+  return angle;
 }
 
 void bring_to_shape(AnisotropyEncoding encoding, Plane& roughness, Plane& anisotropy) {

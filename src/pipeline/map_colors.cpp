@@ -37,6 +37,13 @@ void colors_to_working(Layers& image, const std::string& from, const PlannedMap&
   config.convert(image, space_of_factors, working);
 }
 
+void scale_stored_colors(Layers& image, const std::string& from, const PlannedMap& map,
+                         const ColorConfig& config) {
+  if (!is_scaled(map.decoding)) return;
+  image = as_rgb(std::move(image));
+  colors_to_working(image, from, map, config, from);
+}
+
 std::string constant_to_working(SlotMap& constant, const PlannedMap& map, const ColorConfig& config,
                                 const std::string& working) {
   const bool is_color = slot_facts(map.slot).content == Content::Color;
