@@ -14,6 +14,7 @@ NormalSurvey::NormalSurvey(const SlotMap& map, const WorkflowSettings& settings,
                            bool may_be_signed)
     : source_(map.source),
       named_(map.convention),
+      strength_(map.decoding.scale[0]),
       settings_(settings),
       has_height_(has_height),
       may_be_signed_(may_be_signed) {}
@@ -46,6 +47,7 @@ NormalDecoding NormalSurvey::decoding() const {
   NormalDecoding decoding;
   decoding.zero = settings_.normal_zero;
   decoding.range = settings_.normal_range;
+  decoding.strength = strength_;
   if (decoding.range == NormalRange::Auto) {
     const bool negative = std::min(extremes_[0].min, extremes_[1].min) < ringing;
     decoding.range = negative ? NormalRange::Signed : NormalRange::Unsigned;

@@ -75,6 +75,13 @@ bool has_third_component(const Layers& stored, NormalLayout layout) {
   return is_constant(stored.layers[0].plane) && is_constant(stored.layers[1].plane);
 }
 
+void strengthen_row(std::array<float*, 3> n, int width, float strength) {
+  for (int i = 0; i < width; ++i) {
+    n[0][i] *= strength;
+    n[1][i] *= strength;
+  }
+}
+
 // One row of components to unit vectors above the surface.
 void make_unit_row(std::array<float*, 3> n, int width, DecodedNormals& counts) {
   int degenerate = 0, below = 0, unreadable = 0;
@@ -137,6 +144,7 @@ DecodedNormals decode_normals(const Layers& stored, const NormalDecoding& decodi
       const float* stored_z = stored.layers[2].plane.row(row);
       for (int i = 0; i < stored.size.width; ++i) n[2][i] = z(stored_z[i]);
     }
+    if (decoding.strength != 1.0f) strengthen_row(n, stored.size.width, decoding.strength);
     make_unit_row(n, stored.size.width, decoded);
   }
   return decoded;

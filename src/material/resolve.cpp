@@ -8,6 +8,7 @@
 #include "kiln/core/error.h"
 #include "kiln/image/resample.h"
 #include "kiln/material/resolver.h"
+#include "kiln/material/slot_values.h"
 #include "workflow_reads.h"
 
 namespace kiln {
@@ -98,6 +99,7 @@ SlotMaps heads_of(const SlotMaps& maps) {
     head.value = map.value;
     head.convention = map.convention;
     head.encoding = map.encoding;
+    head.decoding = map.decoding;
     head.source = map.source;
     head.image.size = map.image.size;
     for (const Layer& layer : map.image.layers) head.image.layers.push_back({layer.name, {}});
@@ -163,7 +165,9 @@ Resolved resolve(SlotMaps maps, const WorkflowSettings& settings) {
   SlotMaps read;
   for (const Slot slot : resolver.read()) {
     SlotMap& map = read[slot] = std::move(maps.at(slot));
-    if (!map.value) map.image = resample(map.image, resolver.size());
+    if (map.value) continue;
+    decode_slot(slot, map);
+    map.image = resample(map.image, resolver.size());
   }
   Repairs repairs;
   Resolved resolved;

@@ -7,6 +7,7 @@
 
 #include "given_maps.h"
 #include "kiln/core/error.h"
+#include "slot_values.h"
 #include "workflow_reads.h"
 
 namespace kiln {
@@ -17,6 +18,7 @@ namespace {
 struct RowsInWork {
   SlotMaps maps;
   Workflow workflow;
+  const std::vector<Slot>& read;
   Size size;
   Repairs& repairs;
   Svbrdf svbrdf;
@@ -134,6 +136,45 @@ Plane read_level(RowsInWork& work) {
   return plane;
 }
 
+bool is_read(const RowsInWork& work, Slot slot) {
+  return std::count(work.read.begin(), work.read.end(), slot) > 0;
+}
+
+// The same tinted and weighed: one plane, or three where there is a tint.
+std::vector<Plane> read_dielectric(RowsInWork& work) {
+  std::vector<Plane> f0;
+  f0.push_back(read_level(work));
+  if (is_read(work, Slot::SpecularTint)) {
+    std::vector<Plane> tinted = read_slot(work, Slot::SpecularTint);
+    for (Plane& plane : tinted) multiply(plane, f0[0], 1.0f);
+    f0 = std::move(tinted);
+  }
+  if (is_read(work, Slot::SpecularWeight)) {
+    const Plane weight = std::move(read_slot(work, Slot::SpecularWeight)[0]);
+    for (Plane& plane : f0) multiply(plane, weight, 1.0f);
+  }
+  return f0;
+}
+
+Plane read_angle(RowsInWork& work, bool y_down) {
+  SlotMap& map = work.maps.at(Slot::AnisotropyAngle);
+  Plane angle = map.value ? Plane(work.size, (*map.value)[0]) : angle_of_axes(map.image);
+  Repairs::OfSlot& repairs = work.repairs.slots[static_cast<size_t>(Slot::AnisotropyAngle)];
+  repairs.unreadable += replace_unreadable(angle);
+  if (y_down) for_each_texel(angle, [](float value) { return -value; });
+  return angle;
+}
+
+// Strength as an SVBRDF holds it; models that widen the lobe by it take the roughness along.
+void read_anisotropy(RowsInWork& work, bool y_down) {
+  if (!is_read(work, Slot::Anisotropy)) return;
+  Svbrdf& svbrdf = work.svbrdf;
+  const AnisotropyEncoding encoding = work.maps.at(Slot::Anisotropy).decoding.anisotropy;
+  svbrdf.anisotropy = std::move(read_slot(work, Slot::Anisotropy)[0]);
+  bring_to_shape(encoding, svbrdf.roughness, svbrdf.anisotropy);
+  if (is_read(work, Slot::AnisotropyAngle)) svbrdf.anisotropy_angle = read_angle(work, y_down);
+}
+
 std::array<Plane, 3> colors(std::vector<Plane> planes) {
   return {std::move(planes[0]), std::move(planes[1]), std::move(planes[2])};
 }
@@ -142,11 +183,11 @@ std::array<Plane, 3> colors(std::vector<Plane> planes) {
 void split_by_metallic(RowsInWork& work) {
   Svbrdf& svbrdf = work.svbrdf;
   const Plane metallic = std::move(read_slot(work, Slot::Metallic)[0]);
-  const Plane dielectric = read_level(work);
+  const std::vector<Plane> dielectric = read_dielectric(work);
   for (size_t c = 0; c < 3; ++c) {
     svbrdf.f0[c] = Plane(work.size);
     for (int y = 0; y < work.size.height; ++y) {
-      const float *m = metallic.row(y), *d = dielectric.row(y);
+      const float *m = metallic.row(y), *d = dielectric[dielectric.size() == 3 ? c : 0].row(y);
       float *base = svbrdf.diffuse_color[c].row(y), *f0 = svbrdf.f0[c].row(y);
       for (int x = 0; x < work.size.width; ++x) {
         f0[x] = d[x] * (1.0f - m[x]) + base[x] * m[x];
@@ -165,8 +206,9 @@ void read_colors(RowsInWork& work) {
   if (specular == Slot::SpecularColor) {
     svbrdf.f0 = colors(read_slot(work, specular));
   } else {
-    svbrdf.f0[0] = read_level(work);
-    svbrdf.f0[1] = svbrdf.f0[2] = svbrdf.f0[0];
+    std::vector<Plane> dielectric = read_dielectric(work);
+    while (dielectric.size() < 3) dielectric.push_back(dielectric[0]);
+    svbrdf.f0 = colors(std::move(dielectric));
   }
 }
 
@@ -198,7 +240,8 @@ Bounds bounds_of(const SlotMaps& maps, Slot slot) {
   const auto found = maps.find(slot);
   const bool is_ior = slot == Slot::SpecularLevel && found != maps.end() &&
                       found->second.encoding == SpecularEncoding::Ior;
-  return is_ior ? Bounds{1.0f, 1000.0f} : Bounds{};
+  if (is_ior) return {1.0f, 1000.0f};
+  return slot == Slot::SpecularTint ? Bounds{0.0f, 1000.0f} : Bounds{};
 }
 
 Slot choose(const SlotMaps& maps, const std::vector<Slot>& alternatives) {
@@ -220,6 +263,9 @@ Resolver::Resolver(SlotMaps heads, const WorkflowSettings& settings,
   for (const auto& [slot, map] : heads_) given.push_back(slot);
   read_ = slots_read(settings_.workflow, given);
   size_ = largest_size(heads_, read_);
+  for (auto& [slot, map] : heads_) {
+    if (map.value) decode_slot(slot, map);
+  }
 }
 
 Svbrdf Resolver::rows(SlotMaps maps, Repairs& repairs) const {
@@ -228,14 +274,16 @@ Svbrdf Resolver::rows(SlotMaps maps, Repairs& repairs) const {
   for (const auto& [slot, map] : heads_) {
     if (map.value) maps[slot] = map;
   }
-  RowsInWork work{std::move(maps), settings_.workflow, size, repairs, {}};
+  RowsInWork work{std::move(maps), settings_.workflow, read_, size, repairs, {}};
   NormalDecoding decoding;  // of a constant, which is what it says
   decoding.zero = settings_.normal_zero;
   decoding.range = settings_.normal_range;
+  if (heads_.count(Slot::Normal)) decoding.strength = heads_.at(Slot::Normal).decoding.scale[0];
   work.svbrdf.size = size;
   work.svbrdf.normal = read_normal(work, normal_ ? normal_->decoding : decoding);
   work.svbrdf.ambient_occlusion = std::move(read_slot(work, Slot::AmbientOcclusion)[0]);
   work.svbrdf.roughness = read_roughness(work);
+  read_anisotropy(work, normal_ && normal_->decoding.convention == NormalConvention::DirectX);
   read_colors(work);
   return std::move(work.svbrdf);
 }

@@ -20,6 +20,9 @@ std::vector<Plane*> planes_of(Svbrdf& svbrdf) {
   }
   planes.push_back(&svbrdf.roughness);
   planes.push_back(&svbrdf.ambient_occlusion);
+  for (Plane* plane : {&svbrdf.anisotropy, &svbrdf.anisotropy_angle}) {
+    if (!plane->empty()) planes.push_back(plane);
+  }
   return planes;
 }
 
@@ -41,6 +44,8 @@ LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorC
   Svbrdf& whole = loaded.svbrdf;
   whole.name = set.name;
   whole.size = reader.bands().size;
+  if (reader.bands().find(Slot::Anisotropy)) whole.anisotropy = Plane(whole.size);
+  if (reader.bands().find(Slot::AnisotropyAngle)) whole.anisotropy_angle = Plane(whole.size);
   for (Plane* plane : planes_of(whole)) *plane = Plane(whole.size);
   const int bands = (whole.size.height + rows_of_band - 1) / rows_of_band;
   run_stages<MapRows>(

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "color_reading.h"
+#include "kiln/material/slot_values.h"
 #include "kiln/parallel/rows.h"
+#include "map_colors.h"
 
 namespace kiln {
 namespace {
@@ -135,10 +137,12 @@ void SetReader::add_constant(const PlannedMap& map) {
   SlotMap& constant = constants_[map.slot];
   constant.value = map.value;
   constant.encoding = map.encoding;
+  constant.decoding = map.decoding;
   constant.source = "constant";
+  const std::string color = constant_to_working(constant, map, config_, color_.working);
   bands_.given.push_back(
       {map.slot, "constant", true, {1, 1}, slot_facts(map.slot).channels, "", ""});
-  record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, ""});
+  record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, color});
 }
 
 size_t SetReader::file_of(const fs::path& path, const std::vector<PlannedMap>& maps) {
@@ -188,6 +192,7 @@ SlotMap SetReader::head(const Map& map) const {
   SlotMap head;
   head.convention = map.planned.convention;
   head.encoding = map.planned.encoding;
+  head.decoding = map.planned.decoding;
   head.source = map.planned.path.filename().string();
   head.image.size = files_[map.file].rows.facts().size;
   return head;
@@ -308,7 +313,13 @@ SlotMaps SetReader::stored(const MapRows& rows) const {
   SlotMaps stored = constants_;
   for (const Map& map : maps_) {
     SlotMap& filled = stored[map.planned.slot] = head(map);
-    filled.image = fitted(map, picked(map, rows), rows);
+    filled.image = picked(map, rows);
+    if (!map.from.empty()) {
+      scale_stored_colors(filled.image, map.from, map.planned, config_);
+    } else if (map.planned.slot != Slot::AnisotropyAngle) {
+      decode_slot(map.planned.slot, filled);
+    }
+    filled.image = fitted(map, std::move(filled.image), rows);
   }
   return stored;
 }
@@ -322,7 +333,9 @@ Svbrdf SetReader::svbrdf(const MapRows& rows) const {
     filled.image = picked(*map, rows);
     if (!map->from.empty()) {
       filled.image = as_rgb(std::move(filled.image));
-      config_.convert(filled.image, map->from, color_.working);
+      colors_to_working(filled.image, map->from, map->planned, config_, color_.working);
+    } else {
+      decode_slot(slot, filled);
     }
     filled.image = fitted(*map, std::move(filled.image), rows);
   }

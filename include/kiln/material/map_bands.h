@@ -44,7 +44,8 @@ struct MapBands {
   std::vector<GivenMap> given;
   std::optional<NormalForm> normal;  ///< how its normal map, if any, is stored
 
-  /// Values as stored: colours still encoded, normals as numbers. Constants have no image.
+  /// Values as stored: colours still encoded, normals as numbers; scaled and offset where the set
+  /// says so, roughness perceptual. Constants have no image.
   std::function<SlotMaps(const MapRows&)> stored;
   /// One BRDF per texel, colours in the working space.
   std::function<Svbrdf(const MapRows&)> svbrdf;

@@ -49,6 +49,7 @@ class NormalSurvey {
 
   std::string source_;
   NormalConvention named_;
+  float strength_;
   WorkflowSettings settings_;
   bool has_height_, may_be_signed_;
   bool has_third_ = true;

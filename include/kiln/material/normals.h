@@ -39,6 +39,7 @@ struct NormalDecoding {
   NormalZero zero = NormalZero::Both;
   NormalRange range = NormalRange::Auto;
   NormalLayout layout = NormalLayout::Auto;
+  float strength = 1;  ///< factor of x and y, before normals are made unit
 };
 
 struct DecodedNormals {

@@ -39,7 +39,7 @@ class Resolver {
 
   /// Rows of the SVBRDF. May be called from many threads.
   /// @param maps     the same rows of every map that is read, resampled to the width of size();
-  ///                 colours in the working space
+  ///                 colours in the working space, numbers as decode_slot() leaves them
   /// @param repairs  what was repaired is added
   Svbrdf rows(SlotMaps maps, Repairs& repairs) const;
 
