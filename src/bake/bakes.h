@@ -57,6 +57,7 @@ struct PreviewBake {
   static constexpr const char* summary = "lit picture of a texture set, flat or on a ball";
   static constexpr Scope scope = Scope::PerSet;
   static constexpr Product product = Product::Picture;
+  static constexpr bool own_lights = true;
   enum class Shape { Flat, Sphere };
   enum class Mode { Reference, SplitSum, Difference };
   struct Settings {
@@ -67,6 +68,7 @@ struct PreviewBake {
     Size size{0, 0};
     std::string view = "0,0";
     double rotate = 0;
+    std::string lights = {};  ///< directional, see parse_lights
     int seed = 0;
   };
   static Params<Settings> params();

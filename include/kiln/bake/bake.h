@@ -38,6 +38,7 @@ struct BakeFacts {
   Scope scope = Scope::Once;
   std::vector<ParamFacts> params;
   Product product = Product::Numbers;
+  bool own_lights = false;  ///< its settings may hold lights that do without an environment
 };
 
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
@@ -47,6 +48,7 @@ struct Needs {
   bool sampled = false;      ///< its distribution of directions too
   bool prefiltered = false;  ///< and its specular chain and irradiance
   bool albedo = false;       ///< the directional-albedo table of the model
+  bool own_lights = false;   ///< the settings hold lights: an environment may be missing
 };
 /// What a reader gets of an image that is stored as a pixel type of that name.
 using Coded = std::function<Layers(const Layers&, const std::string& pixel_type)>;
