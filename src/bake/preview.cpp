@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "bakes.h"
-#include "preview_blocks.h"
-#include "preview_glass.h"
-#include "preview_rows.h"
+#include "preview_contact.h"
+#include "preview_difference.h"
+#include "preview_render.h"
 
 namespace kiln {
 namespace {
@@ -45,89 +45,21 @@ Size picture_size(const Settings& settings, Size map) {
   return settings.shape == PreviewBake::Shape::Sphere ? Size{edge, edge} : map;
 }
 
+// A plane on a sheet is seen from before and below, as a table is.
+Vec3<double> viewer_of(const Settings& settings) {
+  if (!settings.view.empty()) return parse_view(settings.view);
+  return parse_view(settings.shape == PreviewBake::Shape::Contact ? "45,-90" : "0,0");
+}
+
 Picture make_picture(const Settings& settings, const Svbrdf& maps) {
   const bool ball = settings.shape == PreviewBake::Shape::Sphere;
-  return Picture(
-      maps, {ball, picture_size(settings, maps.size), parse_view(settings.view), settings.rotate});
+  return Picture(maps,
+                 {ball, picture_size(settings, maps.size), viewer_of(settings), settings.rotate});
 }
 
-// Over the pixels that are shown.
-double mean_of(const Layers& image, const std::vector<std::string>& names) {
-  const Plane& alpha = *image.find("A");
-  double sum = 0, shown = 0;
-  for (const std::string& name : names) {
-    const Plane& plane = *image.find(name);
-    for (int y = 0; y < plane.height(); ++y) {
-      for (int x = 0; x < plane.width(); ++x) {
-        if (alpha.at(x, y) <= 0) continue;
-        sum += plane.at(x, y);
-        ++shown;
-      }
-    }
-  }
-  return shown > 0 ? sum / shown : 0;
-}
-
-const std::vector<std::string> shape_words = {"flat", "sphere"};
+const std::vector<std::string> shape_words = {"flat", "sphere", "contact"};
 const std::vector<std::string> mode_words = {"reference", "split-sum", "difference"};
-const std::vector<std::string> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
-constexpr int most_samples = 1 << 14;
-
-struct Rendered {
-  Layers image;
-  double mean_samples = 0, most_samples = 0;  ///< of a pixel
-  double mean_error = 0;
-  double blocks_short = 0;       ///< share of the pixels whose block has not reached its error
-  double lost = 0, trapped = 0;  ///< of glass
-};
-
-bool is_glass(const ShadingInputs& inputs) { return inputs.surface.bsdf == "glass"; }
-
-// The plane of counts is kept where they differ from place to place.
-void count_samples(const Settings& settings, Rendered& rendered) {
-  std::vector<Layer>& layers = rendered.image.layers;
-  const Plane& counts = layers.at(points_plane).plane;
-  rendered.mean_samples = mean_of(rendered.image, {layers.at(points_plane).name});
-  for (int y = 0; y < counts.height(); ++y) {
-    for (const float count : counts.texels_of_row(y)) {
-      rendered.most_samples = std::max(rendered.most_samples, double{count});
-    }
-  }
-  if (settings.target_error <= 0) layers.erase(layers.begin() + points_plane);
-}
-
-Rendered render_reference(const Picture& picture, const ShadingInputs& inputs,
-                          const Settings& settings) {
-  const SamplePlan plan{whole_samples(settings.samples, picture.positions()), most_samples,
-                        settings.target_error, settings.seed};
-  Rendered rendered;
-  if (is_glass(inputs)) {
-    GlassPicture glass = estimate_glass(picture, inputs, plan);
-    rendered.image = std::move(glass.image);
-    rendered.lost = glass.lost;
-    rendered.trapped = glass.trapped;
-  } else {
-    rendered.image = estimate_picture(picture, inputs, plan);
-  }
-  rendered.mean_error = mean_of(rendered.image, error_channels);
-  if (settings.target_error > 0) {
-    rendered.blocks_short = share_above(rendered.image, settings.target_error);
-  }
-  count_samples(settings, rendered);
-  return rendered;
-}
-
-void subtract(Layers& from, const Layers& image) {
-  for (const char* name : {"R", "G", "B"}) {
-    auto layer = std::find_if(from.layers.begin(), from.layers.end(),
-                              [name](const Layer& l) { return l.name == name; });
-    const Plane& other = *image.find(name);
-    for (int y = 0; y < from.size.height; ++y) {
-      float* to = layer->plane.row(y);
-      for (int x = 0; x < from.size.width; ++x) to[x] -= other.at(x, y);
-    }
-  }
-}
+constexpr int most_cell = 4096;  // of a picture on a contact sheet [texel]
 
 std::vector<std::pair<std::string, std::string>> describe_file(const Settings& settings,
                                                                const ShadingInputs& inputs) {
@@ -159,22 +91,44 @@ void add_model_notes(const Settings& settings, const ShadingInputs& inputs, Bake
   }
 }
 
-void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& reference,
+void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& rendered,
                  Baked& baked) {
-  baked.figures = {{"samples", reference.mean_samples}};
+  baked.figures.emplace_back("samples", rendered.mean_samples);
   if (settings.target_error > 0) {
-    baked.figures.emplace_back("most samples", reference.most_samples);
+    baked.figures.emplace_back("most samples", rendered.most_samples);
   }
-  baked.figures.emplace_back("mean standard error", reference.mean_error);
+  baked.figures.emplace_back("mean standard error", rendered.mean_error);
   if (is_glass(inputs)) {
-    baked.figures.emplace_back("energy lost", reference.lost);
-    baked.figures.emplace_back("light ended inside", reference.trapped);
+    baked.figures.emplace_back("energy lost", rendered.lost);
+    baked.figures.emplace_back("light ended inside", rendered.trapped);
   }
-  if (reference.blocks_short > 0) {
+  if (rendered.above_target > 0) {
     baked.notes.push_back(
         fmt::format("{:.3g} % of the pixels lie in blocks whose mean standard error is above {} "
                     "after {} samples",
-                    100 * reference.blocks_short, settings.target_error, reference.most_samples));
+                    100 * rendered.above_target, settings.target_error, rendered.most_samples));
+  }
+}
+
+void bake_contact(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+                  Artifact& made, Rendered& whole) {
+  if (std::max(settings.size.width, settings.size.height) > most_cell) {
+    throw Error(Fault::Usage, fmt::format("size: found {}x{} for each picture of a contact sheet, "
+                                          "expected at most {}",
+                                          settings.size.width, settings.size.height, most_cell));
+  }
+  ContactSheet sheet = make_contact_sheet(maps, inputs, settings, viewer_of(settings));
+  whole = std::move(sheet.whole);
+  made.view = std::move(sheet.view);
+}
+
+void bake_picture(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+                  Baked& baked, Rendered& whole) {
+  whole = render_preview(make_picture(settings, maps), inputs, settings);
+  if (settings.mode != PreviewBake::Mode::Difference) return;
+  baked.artifacts.front().view = difference_view(whole.image);
+  for (auto& figure : difference_figures(whole.image, whole.mean_radiance)) {
+    baked.figures.push_back(std::move(figure));
   }
 }
 
@@ -182,7 +136,7 @@ void add_figures(const Settings& settings, const ShadingInputs& inputs, const Re
 
 Params<Settings> PreviewBake::params() {
   return {
-      word_param("shape", &Settings::shape, shape_words, "a plane or a ball"),
+      word_param("shape", &Settings::shape, shape_words, "a plane, a ball, or a sheet of both"),
       word_param("mode", &Settings::mode, mode_words,
                  "true light transport, what an engine shows, or the second minus the first"),
       integer_param("samples", &Settings::samples, {1, most_samples},
@@ -190,7 +144,8 @@ Params<Settings> PreviewBake::params() {
       number_param("target_error", &Settings::target_error, {0, 1e9}, "",
                    "doubles samples of each 16x16 block to this mean error; 0: no"),
       extent_param("size", &Settings::size, {1, 32768}, "of the picture"),
-      text_param("view", &Settings::view, "THETA,PHI of the viewer of a plane [degree]"),
+      text_param("view", &Settings::view,
+                 "THETA,PHI of the viewer of a plane [degree], 0,0 unless given"),
       number_param("rotate", &Settings::rotate, {-360, 360}, "[degree]",
                    "turns the environment, positive turns +Z toward +X"),
       text_param("lights", &Settings::lights,
@@ -223,7 +178,6 @@ void PreviewBake::check(const Settings& settings, const SurfaceChoice& surface) 
 }
 
 Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients) {
-  const Picture picture = make_picture(settings, *ingredients.material);
   const ShadingInputs inputs{ingredients.light, ingredients.albedo, ingredients.surface,
                              parse_lights(settings.lights)};
   check_surface(inputs.surface);
@@ -233,20 +187,16 @@ Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients
   }
   Baked baked;
   add_model_notes(settings, inputs, baked);
-  Layers image;
-  if (settings.mode != Mode::Reference) image = approximate_picture(picture, inputs);
-  if (settings.mode != Mode::SplitSum) {
-    Rendered reference = render_reference(picture, inputs, settings);
-    add_figures(settings, inputs, reference, baked);
-    if (settings.mode == Mode::Reference) {
-      image = std::move(reference.image);
-    } else {
-      subtract(image, reference.image);
-    }
+  Artifact& made = baked.artifacts.emplace_back();
+  made.attributes = describe_file(settings, inputs);
+  Rendered whole;
+  if (settings.shape == Shape::Contact) {
+    bake_contact(settings, *ingredients.material, inputs, made, whole);
+  } else {
+    bake_picture(settings, *ingredients.material, inputs, baked, whole);
   }
-  Artifact& picture_made = baked.artifacts.emplace_back();
-  picture_made.image = std::move(image);
-  picture_made.attributes = describe_file(settings, inputs);
+  made.image = std::move(whole.image);
+  if (settings.mode != Mode::SplitSum) add_figures(settings, inputs, whole, baked);
   return baked;
 }
 

@@ -78,6 +78,9 @@ struct Artifact {
   Layers image;
   std::optional<TextureProduct> texture;  ///< when there, this is the product
   std::string text;                       ///< when not empty, this is the product
+  /// Of a picture that no display shows as it is: what formats made for viewing hold instead, R G B
+  /// [A] as a display that encodes as sRGB takes them.
+  std::optional<Layers> view = {};
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
   std::string preferred_type =
       {};         ///< "half": taken where the format holds it and none is asked for
