@@ -153,7 +153,6 @@ std::vector<Inspected> inspect_material(const MaterialOptions& options, const Gl
   options.add_to(pipeline);
   std::vector<Inspected> all;
   for (const PlannedSet& set : planned_sets(pipeline)) {
-    if (!options.name.empty() && set.name != options.name) continue;
     if (!globals.json) {
       fmt::print("set {}: {} ({})\n", set.name, workflow_name(set.reading.workflow),
                  set.workflow_reason);

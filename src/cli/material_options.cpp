@@ -71,6 +71,7 @@ void MaterialOptions::add_to(Pipeline& pipeline) const {
     set.path = path;
     set.naming = naming;
   }
+  set.chosen = name;
   for (const std::string& scheme : naming) find_naming_scheme(scheme);
   apply_reading(reading, set);
   for (const auto& [key, text] : models) {
@@ -79,17 +80,11 @@ void MaterialOptions::add_to(Pipeline& pipeline) const {
   pipeline.sets.push_back(std::move(set));
 }
 
-void require_one_set(Pipeline& pipeline, const std::string& name) {
+void require_one_set(const Pipeline& pipeline) {
   const std::vector<PlannedSet> sets = planned_sets(pipeline);
+  if (sets.size() == 1) return;
   std::vector<std::string> names;
-  for (const PlannedSet& set : sets) {
-    names.push_back(set.name);
-    const bool chosen = name.empty() ? sets.size() == 1 : set.name == name;
-    if (!chosen) continue;
-    if (sets.size() > 1) pipeline.sets.at(0).workflow = set.reading.workflow;
-    return;
-  }
-  if (!name.empty()) throw Error(Fault::Usage, "--name: " + unknown_name("set", name, names));
+  for (const PlannedSet& set : sets) names.push_back(set.name);
   throw Error(Fault::Usage,
               fmt::format("found {} texture sets: {}; choose one with --name or --workflow",
                           names.size(), fmt::join(names, ", ")));

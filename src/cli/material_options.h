@@ -26,8 +26,7 @@ struct MaterialOptions {
   void add_to(Pipeline& pipeline) const;
 };
 
-/// Leaves one texture set in the pipeline.
-/// @error Fault::Usage that lists the sets when there are several and none is named
-void require_one_set(Pipeline& pipeline, const std::string& name);
+/// @error Fault::Usage that lists the texture sets when there are several
+void require_one_set(const Pipeline& pipeline);
 
 }  // namespace kiln

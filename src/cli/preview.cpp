@@ -42,7 +42,7 @@ int run(const PreviewArguments& arguments, const Globals& globals) {
   }
   pipeline.bakes.push_back(arguments.options->choice(std::move(keys)));
   arguments.material.add_to(pipeline);
-  require_one_set(pipeline, arguments.material.name);
+  require_one_set(pipeline);
   return run_one_task(std::move(pipeline), arguments.output, globals);
 }
 

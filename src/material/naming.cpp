@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "kiln/material/udim.h"
 #include "name_words.h"
 #include "naming_match.h"
 
@@ -196,23 +197,7 @@ Claims claims_for(const Claims& all, Workflow workflow, const std::string& owner
   return kept;
 }
 
-std::string without_digits(std::string_view name) {
-  std::string result;
-  for (const char c : name) {
-    if (c < '0' || c > '9') result += c;
-  }
-  return result;
-}
-
-bool is_tile_of_same_map(const std::string& a, const std::string& b) {
-  return udim_tile(a) && udim_tile(b) && without_digits(a) == without_digits(b);
-}
-
 std::string why_not(const Claim& claim, const MapSource& taken) {
-  if (is_tile_of_same_map(claim.map.file, taken.file)) {
-    return fmt::format("UDIM tile {}: a set is one tile, {} is taken", *udim_tile(claim.map.file),
-                       *udim_tile(taken.file));
-  }
   return fmt::format("{} is taken from {} (token '{}' of scheme {})", slot_name(claim.map.slot),
                      taken.file, taken.token, taken.scheme);
 }
@@ -255,7 +240,6 @@ void adopt_convention(FoundSet& set, const Schemes& schemes) {
 
 void take_first_claims(FoundSet& set, const Claims& found) {
   set.ignored = found.ignored;
-  std::set<int> other_tiles;
   for (const Claim& claim : found.claims) {
     const auto taken = std::find_if(set.maps.begin(), set.maps.end(), [&](const MapSource& map) {
       return map.slot == claim.map.slot;
@@ -266,16 +250,10 @@ void take_first_claims(FoundSet& set, const Claims& found) {
     }
     const std::string channel = claim.packed ? fmt::format("channel {}: ", claim.map.channels) : "";
     set.ignored.push_back({claim.map.file, channel + why_not(claim, *taken)});
-    if (is_tile_of_same_map(claim.map.file, taken->file)) {
-      other_tiles.insert(*udim_tile(claim.map.file));
-    } else if (taken->token == claim.map.token && taken->scheme == claim.map.scheme) {
+    if (taken->token == claim.map.token && taken->scheme == claim.map.scheme) {
       set.warnings.push_back(fmt::format("two files for {}: {} is read, {} is not",
                                          slot_name(claim.map.slot), taken->file, claim.map.file));
     }
-  }
-  if (!other_tiles.empty()) {
-    set.warnings.push_back(fmt::format("{} more UDIM tiles are not read: {}", other_tiles.size(),
-                                       fmt::join(other_tiles, ", ")));
   }
 }
 
@@ -299,9 +277,7 @@ FoundSet make_set(std::string name, const Claims& found, const WorkflowGuess& gu
 std::vector<FoundSet> find_sets(const std::string& folder_name,
                                 const std::vector<std::string>& files, const NamingRules& rules) {
   const Schemes schemes = schemes_of(rules.schemes);
-  std::vector<std::string> sorted = files;
-  std::sort(sorted.begin(), sorted.end());
-  Claims found = claims_of(sorted, schemes);
+  Claims found = claims_of(with_tile_patterns(files), schemes);
   std::vector<std::string> warnings;
   settle_specular(found, rules.workflow, warnings);
   sort_by_rank(found.claims);
@@ -332,15 +308,6 @@ std::vector<FoundSet> find_sets(const std::string& folder_name,
     add(folder_name, guess.workflow, "", guess.reason);
   }
   return sets;
-}
-
-std::optional<int> udim_tile(std::string_view file) {
-  const std::vector<NameWord> words = split_words(name_stem(file));
-  if (words.empty() || words.back().text.size() != 4) return std::nullopt;
-  if (words.back().text.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-  const int number = std::stoi(words.back().text);
-  // 1001 + u + 10 v with u, v in 0..9; 1024 and the like are resolutions as often as tiles.
-  return number >= 1001 && number <= 1100 && number != 1024 ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace kiln

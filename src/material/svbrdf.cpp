@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "anisotropy_mips.h"
 #include "kiln/image/resample.h"
 #include "kiln/material/normals.h"
 
@@ -71,7 +72,11 @@ Svbrdf halve(const Svbrdf& svbrdf) {
   half.name = svbrdf.name;
   half.diffuse_color = halve_each(svbrdf.diffuse_color);
   half.f0 = halve_each(svbrdf.f0);
-  half.roughness = halve_roughness(svbrdf.roughness);
+  if (svbrdf.anisotropy.empty()) {
+    half.roughness = halve_roughness(svbrdf.roughness);
+  } else {
+    halve_anisotropic(svbrdf, half);
+  }
   half.normal = halve_normal(svbrdf.normal);
   half.ambient_occlusion = halve(svbrdf.ambient_occlusion);
   half.size = half.roughness.size();

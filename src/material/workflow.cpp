@@ -95,6 +95,21 @@ std::vector<std::vector<Slot>> alternatives_of(Workflow workflow) {
   return all;
 }
 
+std::vector<Slot> optional_slots(Workflow workflow, const std::vector<Slot>& given) {
+  std::vector<Slot> slots;
+  const auto add_given = [&](Slot slot) {
+    if (contains(given, slot)) slots.push_back(slot);
+  };
+  const std::vector<Slot>& specular = workflow_reads(workflow).specular;
+  if (!contains(specular, Slot::SpecularColor) || !contains(given, Slot::SpecularColor)) {
+    add_given(Slot::SpecularTint);
+    add_given(Slot::SpecularWeight);
+  }
+  add_given(Slot::Anisotropy);
+  if (contains(given, Slot::Anisotropy)) add_given(Slot::AnisotropyAngle);
+  return slots;
+}
+
 std::vector<Slot> slots_read(Workflow workflow, const std::vector<Slot>& given) {
   std::vector<Slot> read;
   for (const std::vector<Slot>& alternatives : alternatives_of(workflow)) {
@@ -102,6 +117,7 @@ std::vector<Slot> slots_read(Workflow workflow, const std::vector<Slot>& given) 
                                     [&](Slot slot) { return contains(given, slot); });
     if (first != alternatives.end()) read.push_back(*first);
   }
+  for (const Slot slot : optional_slots(workflow, given)) read.push_back(slot);
   return read;
 }
 

@@ -19,6 +19,9 @@ struct WorkflowReads {
 /// THE table of workflows.
 const WorkflowReads& workflow_reads(Workflow workflow);
 
+/// Slots that are read where they are given and mean nothing where they are not.
+std::vector<Slot> optional_slots(Workflow workflow, const std::vector<Slot>& given);
+
 /// The lists of a workflow, with those that every workflow reads.
 std::vector<std::vector<Slot>> alternatives_of(Workflow workflow);
 

@@ -162,12 +162,12 @@ std::string substituted(const Node& node, const std::map<std::string, std::strin
     }
     i = close + 1;
     const auto found = vars.find(snake(name));
-    if (name == "set") {
-      result += "{set}";
+    if (name == "set" || name == "udim") {
+      result += "{" + name + "}";
     } else if (found != vars.end()) {
       result += found->second;
     } else {
-      std::vector<std::string> known{"set"};
+      std::vector<std::string> known{"set", "udim"};
       for (const auto& var : vars) known.push_back(var.first);
       mistakes.add(node.place, unknown_name("variable", name, known));
     }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "block_reading.h"
 #include "kiln/core/error.h"
 #include "kiln/pipeline/schema.h"
+#include "map_keys.h"
 
 namespace kiln {
 namespace {
@@ -20,17 +22,6 @@ struct Reading {
   fs::path folder;  ///< of the file
   Mistakes& mistakes;
 };
-
-std::string text_at(const Node& block, std::string_view key, const std::string& initial = {}) {
-  const Node* node = block.find(key);
-  return node ? node->text : initial;
-}
-
-// Calls use(node) when the key is there.
-template <class Use>
-void with(const Node& block, std::string_view key, Use&& use) {
-  if (const Node* node = block.find(key)) use(*node);
-}
 
 // A block, or the scalar that stands for its key `path`.
 std::string path_text(const Node& node) {
@@ -45,23 +36,6 @@ size_t index_of(const std::string& text, const std::vector<std::string>& words) 
 template <class Names>
 std::vector<std::string> words(const Names& names) {
   return {names.begin(), names.end()};
-}
-
-std::vector<std::string> scalars(const Node& node) {
-  if (node.kind == Node::Kind::Scalar) return {node.text};
-  std::vector<std::string> texts;
-  for (const Node& item : node.items) texts.push_back(item.text);
-  return texts;
-}
-
-// Lists of numbers are one text with commas between; lists of texts take semicolons, for a text
-// may hold commas itself.
-std::string one_text(const Node& node) {
-  const std::vector<std::string> texts = scalars(node);
-  const bool numbers = std::all_of(texts.begin(), texts.end(), [](const std::string& text) {
-    return text.find_first_not_of("0123456789.+-eE") == std::string::npos;
-  });
-  return fmt::format("{}", fmt::join(texts, numbers ? "," : ";"));
 }
 
 ColorChoice read_color(const Node& node, const Reading& reading) {
@@ -94,37 +68,6 @@ EnvironmentChoice read_environment(const Entry& entry, const Reading& reading) {
   environment.rotate = parse_number({}, text_at(entry.value, "rotate", "0"));
   environment.fix = kebab(text_at(entry.value, "fix", environment.fix));
   return environment;
-}
-
-std::array<float, 3> read_constant(const std::string& text) {
-  ParamFacts facts;
-  facts.name = "value";
-  std::vector<float> numbers;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t comma = std::min(text.find(',', begin), text.size());
-    size_t first = begin;
-    while (first < comma && text[first] == ' ') ++first;
-    numbers.push_back(static_cast<float>(parse_number(facts, text.substr(first, comma - first))));
-    begin = comma + 1;
-  }
-  if (numbers.size() == 1) return {numbers[0], numbers[0], numbers[0]};
-  if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
-  throw Error(Fault::Usage, fmt::format("value: found '{}', expected one number or three", text));
-}
-
-void read_map_keys(const Node& node, MapChoice& map) {
-  map.channel = kebab(text_at(node, "channel"));
-  if (map.channel == "rgb" && slot_facts(map.slot).channels == 1) {
-    throw Error(Fault::Usage, fmt::format("channel: found 'rgb', but {} takes one of r, g, b, a",
-                                          slot_name(map.slot)));
-  }
-  map.color_space = text_at(node, "color_space");
-  with(node, "convention", [&](const Node& word) {
-    map.convention = static_cast<NormalConvention>(index_of(word.text, {"auto", "gl", "dx"}));
-  });
-  with(node, "value", [&](const Node& value) { map.value = read_constant(one_text(value)); });
-  with(node, "encoding",
-       [&](const Node& word) { map.encoding = parse_specular_encoding(word.text); });
 }
 
 MapChoice read_map(Slot slot, const Entry& entry, const Reading& reading) {
@@ -246,8 +189,10 @@ std::map<std::string, std::string> read_vars(
   std::vector<std::string> known;
   with(root, "vars", [&](const Node& node) {
     for (const Entry& entry : node.entries) {
-      if (snake(entry.key) == "set") {
-        mistakes.add(entry.place, "'set' is the name of the texture set; choose another variable");
+      if (snake(entry.key) == "set" || snake(entry.key) == "udim") {
+        mistakes.add(entry.place, fmt::format("'{}' is what a texture set is called; choose "
+                                              "another variable",
+                                              entry.key));
       }
       vars[snake(entry.key)] = entry.value.text;
       known.push_back(entry.key);

@@ -71,10 +71,23 @@ Prepared prepare(const Pipeline& pipeline, const BakeChoice& choice, Mistakes& m
   return prepared;
 }
 
-std::string with_set(const std::string& out, const std::string& set) {
-  std::string result = out;
-  for (size_t at; (at = result.find("{set}")) != std::string::npos;) result.replace(at, 5, set);
-  return result;
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, from.size(), to);
+  return text;
+}
+
+bool names_tile(const std::string& out) { return out.find("{udim}") != std::string::npos; }
+
+std::string with_set(const std::string& out, const PlannedSet& set) {
+  if (!names_tile(out)) return replaced(out, "{set}", set.name);
+  if (!set.tile) {
+    throw Error(Fault::Usage,
+                fmt::format("out: set '{}' has no UDIM tiles, so '{{udim}}' means nothing in '{}'",
+                            set.name, out));
+  }
+  const std::string tile = std::to_string(*set.tile);
+  const std::string name = set.name.substr(0, set.name.size() - tile.size() - 1);
+  return replaced(replaced(out, "{udim}", tile), "{set}", name);
 }
 
 // One name for one file: "a/./b" and "a/b/" are "a/b".
@@ -87,7 +100,9 @@ std::string clean_name(const std::string& out, Product product) {
 void add_task(const Prepared& prepared, std::optional<size_t> set, Plan& plan, Mistakes& mistakes) {
   Task task = prepared.task;
   task.set = set;
-  if (set) task.out = with_set(task.out, plan.sets[*set].name);
+  attempt(mistakes, prepared.choice.place, [&] {
+    if (set) task.out = with_set(task.out, plan.sets[*set]);
+  });
   task.out = clean_name(task.out, task.product);
   attempt(mistakes, prepared.choice.place, [&] { check_output(task); });
   plan.tasks.push_back(std::move(task));
@@ -103,7 +118,8 @@ void add_tasks_of_sets(const std::vector<Prepared>& bakes, Plan& plan, Mistakes&
 
 void check_scope(const Prepared& prepared, const Pipeline& pipeline, size_t sets,
                  Mistakes& mistakes) {
-  const bool names_set = prepared.choice.out.find("{set}") != std::string::npos;
+  const bool names_set =
+      prepared.choice.out.find("{set}") != std::string::npos || names_tile(prepared.choice.out);
   const BakeChoice& choice = prepared.choice;
   if (prepared.facts.scope == Scope::Once && names_set) {
     mistakes.add(choice.place, fmt::format("out: bake '{}' runs once for the whole pipeline, so "

@@ -144,17 +144,29 @@ BlockFacts set_block() {
   return with_reading_keys(std::move(block));
 }
 
+std::vector<std::string> encoding_words() {
+  std::vector<std::string> all = words(specular_encoding_names);
+  for (const auto& more : {words(roughness_encoding_names), words(anisotropy_encoding_names),
+                           words(angle_encoding_names)}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
 BlockFacts map_block() {
-  return {"map",
-          "where the values of a slot come from: a file or a constant",
-          {text("path", "image file, relative to this file"),
-           word("channel", {"r", "g", "b", "a", "rgb"}, "", "what to take of the file"),
-           word("convention", words(normal_convention_names), "auto", "of a normal map"),
-           text("color_space", "colour space of a colour map, if not by type"),
-           listed(text("value", "a constant instead of a file: one number, or three")),
-           word("encoding", words(specular_encoding_names), "",
-                "what the number of a `specular` slot is")},
-          "path"};
+  return {
+      "map",
+      "where the values of a slot come from: a file or a constant",
+      {text("path", "image file, relative to this file"),
+       word("channel", {"r", "g", "b", "a", "rgb", "rg"}, "", "what to take of the file"),
+       word("convention", words(normal_convention_names), "auto", "of a normal map"),
+       text("color_space", "colour space of a colour map, if not by type"),
+       listed(text("value", "a constant instead of a file: one number, or three")),
+       word("encoding", encoding_words(), "",
+            "what the number of a specular_level, roughness, anisotropy or anisotropy_angle is"),
+       listed(text("scale", "factor of the values, one or three; of a colour, linear", "1")),
+       listed(text("offset", "added after that", "0"))},
+      "path"};
 }
 
 BlockFacts material_block() {

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "glob.h"
+#include "kiln/core/names.h"
+#include "tiles.h"
 
 namespace kiln {
 namespace {
@@ -34,14 +38,19 @@ PlannedMap planned(const MapSource& source, const fs::path& folder, SpecularEnco
   return map;
 }
 
+std::string channels_of(const MapChoice& choice) {
+  if (choice.decoding.angle == AngleEncoding::Direction) return "rg";
+  return slot_facts(choice.slot).channels == 3 ? "rgb" : "r";
+}
+
 PlannedMap planned(const MapChoice& choice, SpecularEncoding encoding) {
   PlannedMap map;
   map.slot = choice.slot;
   map.path = choice.path;
-  map.channels = choice.channel.empty() ? (slot_facts(choice.slot).channels == 3 ? "rgb" : "r")
-                                        : choice.channel;
+  map.channels = choice.channel.empty() ? channels_of(choice) : choice.channel;
   map.convention = choice.convention;
   map.encoding = choice.encoding.value_or(encoding);
+  map.decoding = choice.decoding;
   map.color_space = choice.color_space;
   map.value = choice.value;
   map.reason = "stated";
@@ -136,6 +145,16 @@ void plan_maps(const SetChoice& choice, const MaterialChoice& material, Plan& pl
   plan.sets.push_back(std::move(set));
 }
 
+void keep_chosen(const std::string& name, std::vector<PlannedSet>& sets) {
+  if (name.empty()) return;
+  std::vector<std::string> names;
+  for (const PlannedSet& set : sets) names.push_back(set.name);
+  if (!std::count(names.begin(), names.end(), name)) {
+    throw Error(Fault::Usage, unknown_name("set", name, names));
+  }
+  std::erase_if(sets, [&](const PlannedSet& set) { return set.name != name; });
+}
+
 void refuse_equal_names(const Plan& plan, Mistakes& mistakes) {
   std::map<std::string, std::string> seen;
   for (const PlannedSet& set : plan.sets) {
@@ -150,13 +169,18 @@ void refuse_equal_names(const Plan& plan, Mistakes& mistakes) {
 
 void plan_sets(const Pipeline& pipeline, Plan& plan, Mistakes& mistakes) {
   for (const SetChoice& choice : pipeline.sets) {
+    Plan own;
     if (!choice.glob.empty()) {
-      plan_globbed(choice, pipeline.material, plan, mistakes);
+      plan_globbed(choice, pipeline.material, own, mistakes);
     } else if (!choice.path.empty()) {
-      plan_folder(choice, pipeline.material, plan);
+      plan_folder(choice, pipeline.material, own);
     } else {
-      plan_maps(choice, pipeline.material, plan);
+      plan_maps(choice, pipeline.material, own);
     }
+    own.sets = tile_by_tile(std::move(own.sets));
+    attempt(mistakes, choice.place, [&] { keep_chosen(choice.chosen, own.sets); });
+    std::move(own.sets.begin(), own.sets.end(), std::back_inserter(plan.sets));
+    plan.warnings.insert(plan.warnings.end(), own.warnings.begin(), own.warnings.end());
   }
   refuse_equal_names(plan, mistakes);
 }

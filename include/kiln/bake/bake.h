@@ -13,6 +13,7 @@
 #include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
 #include "kiln/image/texture.h"
+#include "kiln/material/map_bands.h"
 #include "kiln/math/vec.h"
 
 namespace kiln {
@@ -41,6 +42,15 @@ struct BakeFacts {
   bool own_lights = false;  ///< its settings may hold lights that do without an environment
 };
 
+/// Maps of a set that are read band by band.
+struct MapNeeds {
+  bool resolved = false;          ///< as one BRDF per texel
+  std::vector<Slot> stored = {};  ///< as stored, where they are given
+  bool all = false;               ///< as stored, all that are given
+
+  bool any() const { return resolved || all || !stored.empty(); }
+};
+
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
 struct Needs {
   bool material = false;     ///< the SVBRDF of the set
@@ -49,7 +59,9 @@ struct Needs {
   bool prefiltered = false;  ///< and its specular chain and irradiance
   bool albedo = false;       ///< the directional-albedo table of the model
   bool own_lights = false;   ///< the settings hold lights: an environment may be missing
+  MapNeeds maps = {};        ///< the maps of the set, band by band
 };
+
 /// What a reader gets of an image that is stored as a pixel type of that name.
 using Coded = std::function<Layers(const Layers&, const std::string& pixel_type)>;
 
@@ -57,6 +69,7 @@ struct Ingredients {
   const Svbrdf* material = nullptr;
   const Light* light = nullptr;
   const AlbedoTable* albedo = nullptr;
+  const MapBands* maps = nullptr;
   SurfaceChoice surface = {};  ///< the models that the maps feed
   Coded coded = {};            ///< for bakes that state the error of an encoding
 };

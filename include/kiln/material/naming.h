@@ -42,7 +42,7 @@ const NamingScheme& find_naming_scheme(std::string_view name);
 /// How one slot of a set is filled, and why.
 struct MapSource {
   Slot slot;
-  std::string file;
+  std::string file;      ///< a pattern (udim.h) where the map has tiles
   std::string channels;  ///< "rgb", "r", "g", "b" or "a"
   NormalConvention convention = NormalConvention::Auto;
   bool if_present = false;  ///< an alpha channel that the file need not have
@@ -80,15 +80,13 @@ struct NamingRules {
 /// earlier scheme. Of two files for one slot, a file of its own goes before a channel of a packed
 /// one, then the earlier scheme, then the earlier token, then the earlier name; the other is
 /// reported. A folder that holds two complete workflows is two sets, NAME.metal_rough and
-/// NAME.spec_gloss; one without any map that a BRDF reads is none.
+/// NAME.spec_gloss; one without any map that a BRDF reads is none. UDIM tiles of a map are one file
+/// here, its pattern.
 ///
 /// @param files  names without folder
 /// @error Fault::Usage for an unknown scheme, naming the nearest
 std::vector<FoundSet> find_sets(const std::string& folder_name,
                                 const std::vector<std::string>& files,
                                 const NamingRules& rules = {});
-
-/// The UDIM tile that a name ends in: "grid.1011.png" -> 1011.
-std::optional<int> udim_tile(std::string_view file);
 
 }  // namespace kiln

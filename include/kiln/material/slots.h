@@ -23,7 +23,11 @@ enum class Slot {
   AmbientOcclusion,
   Height,
   Opacity,
-  Emissive
+  Emissive,
+  SpecularTint,
+  SpecularWeight,
+  Anisotropy,
+  AnisotropyAngle
 };
 
 /// Colour goes through colour management; numbers never do.
@@ -41,7 +45,7 @@ struct SlotFacts {
 
 /// Every slot there is, in the order of the enumeration. Parsing, listing, naming schemes and the
 /// constants of missing maps follow from it.
-inline constexpr std::array<SlotFacts, 12> slot_list = {{
+inline constexpr std::array<SlotFacts, 16> slot_list = {{
     {Slot::BaseColor,
      "base_color",
      "albedo",
@@ -120,6 +124,34 @@ inline constexpr std::array<SlotFacts, 12> slot_list = {{
      3,
      {0, 0, 0},
      "emitted light; not rendered"},
+    {Slot::SpecularTint,
+     "specular_tint",
+     "",
+     Content::Color,
+     3,
+     {1, 1, 1},
+     "colour that the reflectance of the dielectric part is multiplied by"},
+    {Slot::SpecularWeight,
+     "specular_weight",
+     "",
+     Content::Numbers,
+     1,
+     {1, 1, 1},
+     "number that the reflectance of the dielectric part is multiplied by"},
+    {Slot::Anisotropy,
+     "anisotropy",
+     "anisotropic anisotropy_strength anisotropy_level",
+     Content::Numbers,
+     1,
+     {0, 0, 0},
+     "0 as wide along the tangent as across it, 1 widest along it"},
+    {Slot::AnisotropyAngle,
+     "anisotropy_angle",
+     "anisotropy_rotation anisotropic_rotation",
+     Content::Numbers,
+     1,
+     {0, 0, 0},
+     "where the lobe is widest, counter-clockwise from +x; 1 is a whole turn"},
 }};
 
 constexpr const SlotFacts& slot_facts(Slot slot) { return slot_list[static_cast<size_t>(slot)]; }
@@ -128,14 +160,18 @@ constexpr std::string_view slot_name(Slot slot) { return slot_facts(slot).name; 
 /// @error Fault::Usage, naming the nearest known slot
 Slot parse_slot(std::string_view name);
 
-/// The planes of a file that one slot reads: "rgb", "r", "g", "b" or "a" as a naming scheme or a
-/// user says. A grey image answers to r, g and b alike.
+/// The planes of a file that one slot reads: "rgb", "rg", "r", "g", "b" or "a" as a naming scheme
+/// or a user says. A grey image answers to r, g and b alike.
 /// @error Fault::Input when the file has no such channel
 Layers pick_channels(const Layers& file, std::string_view channels);
 
 /// The same for a slot: a normal map may do without blue, and a grey one stays one plane, so that
 /// it is refused later instead of being read as a slope along the diagonal.
 Layers pick_slot(const Layers& file, Slot slot, std::string_view channels);
+
+/// Those of `channels` that it would take: "rg" of a normal map without blue.
+std::string slot_channels(const std::vector<std::string>& channel_names, Slot slot,
+                          std::string_view channels);
 
 /// Whether `pick_channels` would find them.
 bool has_channels(const std::vector<std::string>& channel_names, std::string_view channels);

@@ -10,6 +10,7 @@
 
 #include "kiln/core/param.h"
 #include "kiln/material/normals.h"
+#include "kiln/material/slot_decoding.h"
 #include "kiln/material/slots.h"
 #include "kiln/material/svbrdf.h"
 
@@ -18,9 +19,11 @@ namespace kiln {
 /// How named maps come to diffuse colour, reflectance and roughness.
 ///
 /// * metal-rough: diffuse = base (1 - metallic); F0 = lerp(F0 of the dielectric, base, metallic).
+///   The dielectric has the reflectance that the specular level stands for, times specular tint (at
+///   most 1), times specular weight.
 /// * spec-gloss: diffuse and F0 = specular colour as they are; roughness = 1 - gloss.
 /// * albedo-specular-roughness: diffuse = albedo as it is; F0 = specular colour, or the reflectance
-///   that a specular level stands for; roughness.
+///   that a specular level stands for, tinted and weighed likewise; roughness.
 ///
 /// The glTF extension KHR_materials_pbrSpecularGlossiness multiplies diffuse by 1 - max(specular),
 /// glTF's metallic-roughness model mixes the two lobes by Fresnel instead. Both keep energy by
@@ -63,7 +66,8 @@ WorkflowGuess guess_workflow(const std::vector<Slot>& given);
 
 /// The slots out of `given` that `resolve` reads in this workflow; gloss stands in for roughness
 /// and diffuse for base colour, and the other way round. Height is not among them: it is read in
-/// addition where the convention of a normal map is not stated.
+/// addition where the convention of a normal map is not stated. Tint, weight and anisotropy are
+/// read where they are given.
 std::vector<Slot> slots_read(Workflow workflow, const std::vector<Slot>& given);
 
 /// What is given for one slot: an image, or a constant.
@@ -72,7 +76,8 @@ struct SlotMap {
   std::optional<std::array<float, 3>> value;  ///< where the image is empty; scalars use the first
   NormalConvention convention = NormalConvention::Auto;  ///< of a normal map, as its name says
   SpecularEncoding encoding = SpecularEncoding::Level;   ///< of a specular level
-  std::string source;                                    ///< file name, for the notes
+  SlotDecoding decoding;
+  std::string source;  ///< file name, for the notes
 };
 using SlotMaps = std::map<Slot, SlotMap>;
 

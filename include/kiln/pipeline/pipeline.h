@@ -45,6 +45,7 @@ struct MapChoice {
   std::string color_space;  ///< empty: by type
   std::optional<std::array<float, 3>> value;
   std::optional<SpecularEncoding> encoding;
+  SlotDecoding decoding = {};
   Place place = {};
 };
 
@@ -54,6 +55,7 @@ struct SetChoice {
   std::string glob;
   std::filesystem::path path;
   std::string name;
+  std::string chosen = {};  ///< the one of its sets that is wanted; empty: all
   std::vector<MapChoice> maps;
   std::vector<std::string> naming;  ///< empty: every scheme
   std::optional<Workflow> workflow;

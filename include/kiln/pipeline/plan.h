@@ -22,13 +22,15 @@ struct PlannedMap {
   bool if_present = false;     ///< left out where the file has no such channel
   NormalConvention convention = NormalConvention::Auto;
   SpecularEncoding encoding = SpecularEncoding::Level;
-  std::string color_space;  ///< as stated; empty: by the file's type
+  SlotDecoding decoding = {};  ///< of colours, scale and offset count in their own linear space
+  std::string color_space;     ///< as stated; empty: by the file's type
   std::optional<std::array<float, 3>> value;
   std::string reason;
 };
 
 struct PlannedSet {
-  std::string name;
+  std::string name;  ///< of a UDIM tile: NAME.1001
+  std::optional<int> tile;
   std::string source;  ///< the folder, or where the set is written
   WorkflowSettings reading;
   std::string workflow_reason;

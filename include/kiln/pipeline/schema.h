@@ -53,7 +53,8 @@ std::vector<Key> output_keys(Product product);
 /// missing ones, shapes, words and ranges. Mistakes are added, each with its place.
 void check(const Node& node, const std::string& block, Mistakes& mistakes);
 
-/// Replaces "{name}" in every scalar except below the key `vars`; "{set}" stays for later.
+/// Replaces "{name}" in every scalar except below the key `vars`; "{set}" and "{udim}" stay for
+/// later.
 void substitute(Node& node, const std::map<std::string, std::string>& vars, Mistakes& mistakes);
 
 /// The JSON Schema of pipeline files, indented.

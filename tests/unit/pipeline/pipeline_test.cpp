@@ -59,6 +59,40 @@ bakes: []
   EXPECT_EQ(set.reading.normal_zero, NormalZero::Code127);
 }
 
+TEST(PipelineFile, ReadsWhatTheNumbersOfAMapAre) {
+  const Workshop shop;
+  const auto file = shop.write("a.yaml", R"(
+version: 1
+sets:
+  - name: hero
+    maps:
+      roughness: { path: a.png, encoding: alpha, scale: 0.5 }
+      base_color: { path: c.png, scale: [1, 0.5, 0.25] }
+      anisotropy: { path: d.png, channel: b, encoding: gltf }
+      anisotropy_angle: { path: d.png, encoding: direction, offset: 0.3 }
+bakes: []
+)");
+  const SetChoice set = read_pipeline(file).sets.at(0);
+  EXPECT_EQ(set.maps.at(0).decoding.roughness, RoughnessEncoding::Alpha);
+  EXPECT_EQ(set.maps.at(0).decoding.scale[2], 0.5f);
+  EXPECT_EQ(set.maps.at(1).decoding.scale[2], 0.25f);
+  EXPECT_EQ(set.maps.at(2).decoding.anisotropy, AnisotropyEncoding::Gltf);
+  EXPECT_EQ(set.maps.at(3).decoding.angle, AngleEncoding::Direction);
+  EXPECT_EQ(set.maps.at(3).decoding.offset[0], 0.3f);
+  const auto wrong = shop.write("b.yaml", R"(
+version: 1
+sets:
+  - name: hero
+    maps:
+      roughness: { path: a.png, encoding: ior }
+      gloss: { path: a.png, encoding: alpha }
+bakes: []
+)");
+  const std::string all = message_of([&] { read_pipeline(wrong); });
+  EXPECT_THAT(all, HasSubstr("found 'ior', expected of roughness: perceptual, alpha"));
+  EXPECT_THAT(all, HasSubstr("encoding: gloss has none"));
+}
+
 TEST(PipelineFile, RefusesMapsThatMakeNoSense) {
   const Workshop shop;
   const auto file = shop.write("a.yaml", R"(

@@ -195,6 +195,26 @@ TEST(Run, TellsWhichFileTookWhichSlotAndItsColorSpace) {
   EXPECT_EQ(report.sets[0].maps.at(1).color, "data");
 }
 
+TEST(Run, ScalesColoursInLinearLightAndConvertsConstantsThatNameTheirSpace) {
+  const Workshop shop;
+  shop.paint("c.png", 188 / 255.0f, PixelType::Uint8);  // half of white in linear light
+  paint_sky(shop);
+  run_plan(plan_of(shop, R"(
+environment: { sky: sky.exr }
+sets:
+  - { name: a, maps: { base_color: { path: c.png, scale: 0.5 }, metallic: { value: 1 } } }
+  - { name: b, maps: { base_color: { value: 0.5371, color_space: srgb_rec709_scene },
+                       metallic: { value: 1 } } }
+  - { name: c, maps: { base_color: { value: 0.25 }, metallic: { value: 1 } } }
+material: { energy: none }
+bakes: [{ bake: preview, env: sky, samples: 64, size: 1, type: float, out: "{set}.exr" }]
+)"),
+           Records::None);
+  const float c = read_image(shop / "out/c.exr").image.find("R")->at(0, 0);
+  EXPECT_NEAR(read_image(shop / "out/a.exr").image.find("R")->at(0, 0), c, 0.01f * c);
+  EXPECT_NEAR(read_image(shop / "out/b.exr").image.find("R")->at(0, 0), c, 0.01f * c);
+}
+
 TEST(Run, RefusesAnOutputFolderBelowAFile) {
   const Workshop shop;
   shop.write("file", "x");

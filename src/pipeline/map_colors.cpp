@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_colors.h"
+
+#include "color_reading.h"
+
+namespace kiln {
+namespace {
+
+constexpr const char* space_of_factors = "lin_rec709_scene";
+
+bool is_scaled(const SlotDecoding& decoding) {
+  return decoding.scale != SlotDecoding{}.scale || decoding.offset != SlotDecoding{}.offset;
+}
+
+void scale_colors(Layers& image, const SlotDecoding& decoding) {
+  constexpr std::array<const char*, 3> names = {"R", "G", "B"};
+  for (Layer& layer : image.layers) {
+    for (size_t c = 0; c < names.size(); ++c) {
+      if (layer.name != names[c]) continue;
+      for (int y = 0; y < image.size.height; ++y) {
+        float* v = layer.plane.row(y);
+        for (int x = 0; x < image.size.width; ++x) {
+          v[x] = decoding.scale[c] * v[x] + decoding.offset[c];
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void colors_to_working(Layers& image, const std::string& from, const PlannedMap& map,
+                       const ColorConfig& config, const std::string& working) {
+  if (!is_scaled(map.decoding)) return config.convert(image, from, working);
+  config.convert(image, from, space_of_factors);
+  scale_colors(image, map.decoding);
+  config.convert(image, space_of_factors, working);
+}
+
+void scale_stored_colors(Layers& image, const std::string& from, const PlannedMap& map,
+                         const ColorConfig& config) {
+  if (!is_scaled(map.decoding)) return;
+  image = as_rgb(std::move(image));
+  colors_to_working(image, from, map, config, from);
+}
+
+std::string constant_to_working(SlotMap& constant, const PlannedMap& map, const ColorConfig& config,
+                                const std::string& working) {
+  const bool is_color = slot_facts(map.slot).content == Content::Color;
+  if (!is_color || map.color_space.empty()) return "";
+  Layers image = make_layers({1, 1}, {"R", "G", "B"});
+  for (size_t c = 0; c < 3; ++c) image.layers[c].plane.at(0, 0) = (*constant.value)[c];
+  colors_to_working(image, map.color_space, map, config, working);
+  for (size_t c = 0; c < 3; ++c) (*constant.value)[c] = image.layers[c].plane.at(0, 0);
+  constant.decoding = {};
+  return conversion_text(map.color_space, working);
+}
+
+}  // namespace kiln
