@@ -8,7 +8,9 @@ namespace {
 
 template <class Bake>
 BakeFacts describe() {
-  return {Bake::name, Bake::summary, Bake::scope, facts_of(Bake::params()), Bake::product};
+  BakeFacts facts{Bake::name, Bake::summary, Bake::scope, facts_of(Bake::params()), Bake::product};
+  if constexpr (requires { Bake::own_lights; }) facts.own_lights = Bake::own_lights;
+  return facts;
 }
 
 // Text to settings to product, for any bake on the list.

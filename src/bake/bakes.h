@@ -55,10 +55,12 @@ struct EnvironmentBake {
 /// A lit picture of a texture set.
 struct PreviewBake {
   static constexpr const char* name = "preview";
-  static constexpr const char* summary = "lit picture of a texture set, flat or on a ball";
+  static constexpr const char* summary =
+      "lit picture of a texture set, flat, on a ball, or a sheet of both";
   static constexpr Scope scope = Scope::PerSet;
   static constexpr Product product = Product::Picture;
-  enum class Shape { Flat, Sphere };
+  static constexpr bool own_lights = true;
+  enum class Shape { Flat, Sphere, Contact };
   enum class Mode { Reference, SplitSum, Difference };
   struct Settings {
     Shape shape = Shape::Flat;
@@ -66,8 +68,9 @@ struct PreviewBake {
     int samples = 64;
     double target_error = 0;
     Size size{0, 0};
-    std::string view = "0,0";
+    std::string view;  ///< "": 0,0; the plane of a contact sheet 45,-90
     double rotate = 0;
+    std::string lights = {};  ///< directional, see parse_lights
     int seed = 0;
   };
   static Params<Settings> params();

@@ -58,12 +58,16 @@ Layers over_black(const Layers& image) {
 
 // A picture as its format holds it: viewing formats through the display, errors only where channels
 // have names.
-Layers picture_for(const Plan& plan, const Task& task, const Layers& image, std::string_view format,
-                   const ColorConfig& config) {
-  if (format == "openexr") return image;
-  Layers colors = colors_only(image);
+Layers picture_for(const Plan& plan, const Task& task, const Artifact& artifact,
+                   std::string_view format, const ColorConfig& config) {
+  if (format == "openexr") return artifact.image;
+  if (artifact.view && format == "hdr") {
+    throw Error(Fault::Usage, "hdr holds no negative numbers; expected exr, tif, png or jpg");
+  }
+  const bool viewed = artifact.view && is_for_viewing(format);
+  Layers colors = colors_only(viewed ? *artifact.view : artifact.image);
   if (!holds_alpha(format)) colors = over_black(colors);
-  if (!is_for_viewing(format)) return colors;
+  if (viewed || !is_for_viewing(format)) return colors;
   return config.to_display(colors, plan.color.working, task.output.display);
 }
 
@@ -124,7 +128,7 @@ WriteFacts write_product(const Plan& plan, const Task& task, const Artifact& art
   if (area(artifact.bands.size) > 0) return write_bands(path, artifact.bands, options);
   if (task.product != Product::Picture) return write_image(path, artifact.image, options);
   const std::string_view format = writable_format(path).name;
-  return write_image(path, picture_for(plan, task, artifact.image, format, config), options);
+  return write_image(path, picture_for(plan, task, artifact, format, config), options);
 }
 
 std::string write_image_of(const Plan& plan, const Task& task, const Artifact& artifact,

@@ -236,7 +236,8 @@ BlockFacts bake_block(const BakeFacts& bake) {
   for (const ParamFacts& param : bake.params) own.insert(param.name);
   std::vector<Key> runner = output_keys(bake.product);
   if (make_recipe(bake.name)->needs().light) {
-    runner.push_back(required(text("env", "name of an environment of this file")));
+    Key env = text("env", "name of an environment of this file");
+    runner.push_back(bake.own_lights ? std::move(env) : required(std::move(env)));
   }
   for (Key& key : runner) {
     if (!own.count(key.facts.name)) block.keys.push_back(std::move(key));

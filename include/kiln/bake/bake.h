@@ -40,6 +40,7 @@ struct BakeFacts {
   Scope scope = Scope::Once;
   std::vector<ParamFacts> params;
   Product product = Product::Numbers;
+  bool own_lights = false;  ///< its settings may hold lights that do without an environment
 };
 
 /// Maps of a set that are read band by band.
@@ -58,6 +59,7 @@ struct Needs {
   bool sampled = false;      ///< its distribution of directions too
   bool prefiltered = false;  ///< and its specular chain and irradiance
   bool albedo = false;       ///< the directional-albedo table of the model
+  bool own_lights = false;   ///< the settings hold lights: an environment may be missing
   MapNeeds maps = {};        ///< the maps of the set, band by band
 };
 
@@ -90,6 +92,9 @@ struct Artifact {
   Layers image;
   std::optional<TextureProduct> texture;  ///< when there, this is the product
   std::string text;                       ///< when not empty, this is the product
+  /// Of a picture that no display shows as it is: what formats made for viewing hold instead, R G B
+  /// [A] as a display that encodes as sRGB takes them.
+  std::optional<Layers> view = {};
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
   std::string preferred_type =
       {};         ///< "half": taken where the format holds it and none is asked for
