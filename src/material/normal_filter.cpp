@@ -55,9 +55,8 @@ W added_by_toksvig(W alpha_squared, const MeanNormal& mean) {
   return rest * rest * v / fma(rest, v, W(1));
 }
 
-W added_by_vmf(const MeanNormal& mean) {
-  return W(2) * mean.lost / (mean.length * fma(-mean.length, mean.length, W(3)));
-}
+// 2/k = 2 (1 - N), and (1 - N)(1 + N) is what the mean has lost.
+W added_by_vmf(const MeanNormal& mean) { return W(2) * mean.lost / (W(1) + mean.length); }
 
 /// A symmetric matrix.
 struct Covariance {

@@ -13,14 +13,14 @@ namespace kiln {
 /// * None: alpha'^2 = mean alpha^2. Normals do not count.
 /// * Toksvig: from the length N of the mean normal, by way of Phong's exponent s = 2/alpha^2 - 2:
 ///   s' = s N / (N + s (1 - N)).
-/// * Vmf: the von Mises-Fisher distribution with that N, of concentration k = N (3 - N^2) / (1 -
-///   N^2), has slopes of the variance 1/k: alpha'^2 = alpha^2 + 2/k.
+/// * Vmf: the von Mises-Fisher distribution of that N has N = coth k - 1/k: k = 1 / (1 - N), but
+///   for exp(-2 k). Its slopes have the variance 1/k: alpha'^2 = alpha^2 + 2/k.
 /// * Lean: first and second moments of slopes give their covariance S about the mean; alpha'^2 =
 ///   alpha^2 + 2 S is a matrix, of whose trace the isotropic half is taken. S is turned into the
 ///   frame of the mean normal: slopes shrink by 1 / (1 + m^2) along a mean slope m and by its root
 ///   across. Exact where slopes and lobe are Gaussian (Beckmann) about a level mean.
 ///
-/// @source Toksvig 2005, "Mipmapping Normal Maps"; Banerjee et al. 2005 (k); Olano and Baker 2010,
+/// @source Toksvig 2005, "Mipmapping Normal Maps"; Olano and Baker 2010,
 ///         "LEAN Mapping"
 enum class NormalFilter { None, Toksvig, Vmf, Lean };
 inline constexpr std::array<std::string_view, 4> normal_filter_names = {"none", "toksvig", "vmf",
