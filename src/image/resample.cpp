@@ -38,24 +38,33 @@ Taps bilinear_taps(int i, int in, int out) {
   return {left, {1.0f - t, t}};
 }
 
+Taps taps_at(int i, int in, int out) {
+  return out <= in ? area_taps(i, in, out) : bilinear_taps(i, in, out);
+}
+
 std::vector<Taps> taps_of_axis(int in, int out) {
   std::vector<Taps> taps;
   taps.reserve(static_cast<size_t>(out));
   for (int i = 0; i < out; ++i) {
-    taps.push_back(out <= in ? area_taps(i, in, out) : bilinear_taps(i, in, out));
+    taps.push_back(taps_at(i, in, out));
   }
   return taps;
 }
 
 }  // namespace
 
-Plane resample(const Plane& plane, Size size) {
-  if (plane.size() == size) return plane;
-  const auto across = taps_of_axis(plane.width(), size.width);
-  const auto down = taps_of_axis(plane.height(), size.height);
-  Plane narrow({size.width, plane.height()});
-  for_rows(plane.height(), [&](int y) {
-    const float* from = plane.row(y);
+RowRange rows_read(int in, int out, RowRange rows) {
+  if (in == out) return rows;
+  const Taps top = taps_at(rows.first, in, out),
+             bottom = taps_at(rows.first + rows.count - 1, in, out);
+  return {top.first, bottom.first + static_cast<int>(bottom.weights.size()) - top.first};
+}
+
+Plane resample_rows(const Plane& window, int window_first, int height, Size size, RowRange rows) {
+  const auto across = taps_of_axis(window.width(), size.width);
+  Plane narrow({size.width, window.height()});
+  for_rows(window.height(), [&](int y) {
+    const float* from = window.row(y);
     for (int x = 0; x < size.width; ++x) {
       float sum = 0;
       const Taps& taps = across[x];
@@ -64,16 +73,21 @@ Plane resample(const Plane& plane, Size size) {
       narrow.at(x, y) = sum;
     }
   });
-  Plane result(size);
-  for_rows(size.height, [&](int y) {
-    const Taps& taps = down[y];
+  Plane result({size.width, rows.count});
+  for_rows(rows.count, [&](int y) {
+    const Taps taps = taps_at(rows.first + y, height, size.height);
     float* to = result.row(y);
     for (size_t k = 0; k < taps.weights.size(); ++k) {
-      const float* from = narrow.row(taps.first + static_cast<int>(k));
+      const float* from = narrow.row(taps.first + static_cast<int>(k) - window_first);
       for (int x = 0; x < size.width; ++x) to[x] += taps.weights[k] * from[x];
     }
   });
   return result;
+}
+
+Plane resample(const Plane& plane, Size size) {
+  if (plane.size() == size) return plane;
+  return resample_rows(plane, 0, plane.height(), size, {0, size.height});
 }
 
 Layers resample(const Layers& image, Size size) {

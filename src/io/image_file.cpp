@@ -157,34 +157,6 @@ std::unique_ptr<io::BandEncoder> make_encoder(io::FileToWrite file,
   return io::openimageio_encoder(file, layout);
 }
 
-using Take = std::function<void(const Layers& band)>;
-
-// Publishes an image of these layers whose bands `feed` hands over, from the top.
-WriteFacts write_fed(const fs::path& path, Size size, const std::vector<std::string>& names,
-                     const WriteOptions& options, const std::function<void(const Take&)>& feed) {
-  const WritableFormat& format = writable_format(path);
-  check_type(path, format, options.type);
-  const auto planes = [&](const Layers& image) {
-    return planes_of_format(path, format, image, options);
-  };
-  const Layers blank = make_layers({}, names);
-  const io::StoredPlanes layout = planes(blank);
-  with_context(path.string(), [&] { io::require_room(layout, options.type); });
-  WriteFacts facts;
-  publish_stream(path, [&](ByteStream& out) {
-    const std::string context = path.string();
-    const auto encoder = with_context(context, [&] {
-      return make_encoder({path, format.name, size, options, out, facts}, layout);
-    });
-    feed([&](const Layers& band) {
-      with_context(context, [&] { encoder->add(planes(band)); });
-      out.check();
-    });
-    with_context(context, [&] { encoder->finish(); });
-  });
-  return facts;
-}
-
 }  // namespace
 
 std::string_view pixel_type_name(PixelType type) {
@@ -287,22 +259,74 @@ const WritableFormat& writable_format(const fs::path& path) {
               path.string() + ": " + unknown_name("file extension", extension, known));
 }
 
+struct ImageWriter::Unfinished {
+  Unfinished(fs::path path_in, Size size, const std::vector<std::string>& names,
+             WriteOptions options_in)
+      : path(std::move(path_in)),
+        format(writable_format(path)),
+        options(std::move(options_in)),
+        publication(path) {
+    const Layers blank = make_layers({}, names);
+    const io::StoredPlanes layout = planes(blank);
+    with_context(path.string(), [&] {
+      encoder =
+          make_encoder({path, format.name, size, options, publication.stream(), facts}, layout);
+    });
+  }
+
+  io::StoredPlanes planes(const Layers& image) const {
+    return planes_of_format(path, format, image, options);
+  }
+
+  fs::path path;
+  const WritableFormat& format;
+  WriteOptions options;
+  WriteFacts facts;
+  Publication publication;
+  std::unique_ptr<io::BandEncoder> encoder;
+};
+
+ImageWriter::ImageWriter(const fs::path& path, Size size, const std::vector<std::string>& names,
+                         const WriteOptions& options) {
+  const WritableFormat& format = writable_format(path);
+  check_type(path, format, options.type);
+  const Layers blank = make_layers({}, names);
+  const io::StoredPlanes layout = planes_of_format(path, format, blank, options);
+  with_context(path.string(), [&] { io::require_room(layout, options.type); });
+  unfinished_ = std::make_unique<Unfinished>(path, size, names, options);
+}
+
+ImageWriter::~ImageWriter() = default;
+
+void ImageWriter::add(const Layers& band) {
+  with_context(unfinished_->path.string(),
+               [&] { unfinished_->encoder->add(unfinished_->planes(band)); });
+  unfinished_->publication.stream().check();
+}
+
+WriteFacts ImageWriter::finish() {
+  with_context(unfinished_->path.string(), [&] { unfinished_->encoder->finish(); });
+  unfinished_->publication.put_in_place();
+  return unfinished_->facts;
+}
+
 WriteFacts write_image(const fs::path& path, const Layers& image, const WriteOptions& options) {
   check_planes(path, image);
-  return write_fed(path, image.size, names_of(image), options,
-                   [&](const Take& take) { take(image); });
+  ImageWriter writer(path, image.size, names_of(image), options);
+  writer.add(image);
+  return writer.finish();
 }
 
 WriteFacts write_bands(const fs::path& path, const ImageBands& image, const WriteOptions& options) {
   check_bands(path, image);
-  return write_fed(path, image.size, image.names, options, [&](const Take& take) {
-    for (int first = 0; first < image.size.height; first += image.band_rows) {
-      const int rows = std::min(image.band_rows, image.size.height - first);
-      const Layers band = image.make(first, rows);
-      check_band(path, band, {image.size.width, rows}, image.names);
-      take(band);
-    }
-  });
+  ImageWriter writer(path, image.size, image.names, options);
+  for (int first = 0; first < image.size.height; first += image.band_rows) {
+    const int rows = std::min(image.band_rows, image.size.height - first);
+    const Layers band = image.make(first, rows);
+    check_band(path, band, {image.size.width, rows}, image.names);
+    writer.add(band);
+  }
+  return writer.finish();
 }
 
 }  // namespace kiln

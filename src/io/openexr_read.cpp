@@ -13,6 +13,7 @@
 #include "openexr_facts.h"
 #include "openexr_file.h"
 #include "openexr_zip.h"
+#include "row_source.h"
 
 namespace kiln::io {
 namespace {
@@ -90,16 +91,17 @@ bool contains(const Box2i& outer, const Box2i& inner) {
   return outer.intersects(inner.min) && outer.intersects(inner.max);
 }
 
-// The same where all that is stored is shown: straight into the planes, which are there.
+// The same where all that is stored is shown: straight into the rows from `at` on of planes that
+// are there.
 void read_rows_in_place(Imf::InputPart& part, const std::vector<std::string>& channels, int first,
-                        long long end, Layers& image) {
+                        long long end, Layers& image, int at) {
   const Box2i stored = part.header().dataWindow();
-  const Imath::V2i corner = part.header().displayWindow().min;
+  const int left = stored.min.x - part.header().displayWindow().min.x;
   const int width = stored.max.x - stored.min.x + 1, rows = static_cast<int>(end - first);
   Imf::FrameBuffer frame;
   for (size_t c = 0; c < channels.size(); ++c) {
     Plane& plane = image.layers[c].plane;
-    float* from = plane.row(first - corner.y) + (stored.min.x - corner.x);
+    float* from = plane.row(at) + left;
     frame.insert(
         channels[c],
         Imf::Slice::Make(Imf::FLOAT, from, {stored.min.x, first}, width, rows, sizeof(float),
@@ -133,11 +135,59 @@ Layers read_part(const std::filesystem::path& path, Imf::InputPart& part,
     Imf::MultiPartInputFile file(path.c_str(), 0, false);
     Imf::InputPart own(file, 0);
     const long long first = stored.min.y + (band + 1LL) * rows;
-    const auto read = !in_place ? read_rows : packed_by_zip ? read_zip_rows : read_rows_in_place;
-    read(own, channels, static_cast<int>(first), std::min(end, first + rows), image);
+    const auto top = static_cast<int>(first);
+    const long long bottom = std::min(end, first + rows);
+    if (!in_place) return read_rows(own, channels, top, bottom, image);
+    const int at = top - part.header().displayWindow().min.y;
+    const auto read = packed_by_zip ? read_zip_rows : read_rows_in_place;
+    read(own, channels, top, bottom, image, at);
   });
   return image;
 }
+
+std::vector<std::string> wanted_channels(const FileFacts& facts, const Reading& reading) {
+  std::vector<std::string> wanted;
+  std::copy_if(facts.channels.begin(), facts.channels.end(), std::back_inserter(wanted),
+               [&](const std::string& channel) { return reading.wants(channel); });
+  return wanted;
+}
+
+class OpenExrRows : public RowSource {
+ public:
+  OpenExrRows(const std::filesystem::path& path, const Reading& reading)
+      : file_(path.c_str(), 0, false),
+        facts_(openexr_facts(file_, OpenexrUse::Image, reading.limits)) {
+    if (!file_.partComplete(0)) throw Error(Fault::Input, "truncated OpenEXR file");
+    part_ = std::make_unique<Imf::InputPart>(file_, 0);
+    names_ = wanted_channels(facts_, reading);
+    packed_by_zip_ = has_zip_rows(part_->header());
+  }
+
+  // Whether its first row is the first that is stored, and so on.
+  bool shows_what_is_stored() const {
+    return part_->header().displayWindow() == part_->header().dataWindow();
+  }
+  const FileFacts& facts() const override { return facts_; }
+  const std::vector<std::string>& names() const override { return names_; }
+  int block_rows() const override {
+    const int block = rows_of_block(part_->header());
+    return part_->header().compression() == Imf::DWAB_COMPRESSION ? std::max(block, 256) : block;
+  }
+  void read(int first, int rows, Layers& image, int at) override {
+    reading_openexr([&] {
+      const int top = part_->header().dataWindow().min.y + first;
+      const auto read = packed_by_zip_ ? read_zip_rows : read_rows_in_place;
+      read(*part_, names_, top, static_cast<long long>(top) + rows, image, at);
+    });
+  }
+
+ private:
+  Imf::MultiPartInputFile file_;
+  FileFacts facts_;
+  std::unique_ptr<Imf::InputPart> part_;
+  std::vector<std::string> names_;
+  bool packed_by_zip_ = false;
+};
 
 bool covers_part(const Layers& image) {
   const Plane* alpha = image.find("A");
@@ -166,15 +216,19 @@ ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading
     result.facts = openexr_facts(file, OpenexrUse::Image, reading.limits);
     if (!file.partComplete(0)) throw Error(Fault::Input, "truncated OpenEXR file");
     Imf::InputPart part(file, 0);
-    std::vector<std::string> wanted;
-    std::copy_if(result.facts.channels.begin(), result.facts.channels.end(),
-                 std::back_inserter(wanted),
-                 [&](const std::string& channel) { return reading.wants(channel); });
-    result.image = read_part(path, part, wanted, reading.run);
+    result.image = read_part(path, part, wanted_channels(result.facts, reading), reading.run);
     if (covers_part(result.image)) {
       result.facts.notes.emplace_back("alpha is not 1 everywhere; colour is as stored beside it");
     }
     return result;
+  });
+}
+
+std::unique_ptr<RowSource> openexr_rows(const std::filesystem::path& path, const Reading& reading) {
+  return reading_openexr([&]() -> std::unique_ptr<RowSource> {
+    auto rows = std::make_unique<OpenExrRows>(path, reading);
+    if (!rows->shows_what_is_stored()) return nullptr;
+    return rows;
   });
 }
 

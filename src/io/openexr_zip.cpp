@@ -118,10 +118,9 @@ bool has_zip_rows(const Imf::Header& header) {
 }
 
 void read_zip_rows(Imf::InputPart& part, const std::vector<std::string>& channels, int first,
-                   long long end, Layers& image) {
+                   long long end, Layers& image, int at) {
   const Imf::Header& header = part.header();
-  const Imath::V2i corner = header.displayWindow().min;
-  const auto left = static_cast<size_t>(header.dataWindow().min.x - corner.x);
+  const auto left = static_cast<size_t>(header.dataWindow().min.x - header.displayWindow().min.x);
   const auto width = static_cast<size_t>(header.dataWindow().max.x - header.dataWindow().min.x + 1);
   const Line line = line_of(header, channels, image);
   Unpacker unpacker;
@@ -134,7 +133,7 @@ void read_zip_rows(Imf::InputPart& part, const std::vector<std::string>& channel
     const std::uint8_t* raw = unpacker.unpack(block, line.bytes * static_cast<size_t>(rows));
     for (int i = 0; i < rows; ++i, raw += line.bytes) {
       for (const Line::Channel& channel : line.channels) {
-        const std::span row(channel.plane->row(y + i - corner.y) + left, width);
+        const std::span row(channel.plane->row(at + y - first + i) + left, width);
         if (channel.type == Imf::HALF) {
           load<half>(raw + channel.begin, row);
         } else {

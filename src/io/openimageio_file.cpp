@@ -16,6 +16,7 @@
 #include "kiln/core/error.h"
 #include "openimageio_loader.h"
 #include "orientation.h"
+#include "row_source.h"
 #include "samples.h"
 #include "tiff_description.h"
 
@@ -142,30 +143,113 @@ int rows_of_block(const module::StoredImage& stored) {
   return (least + stored.block_rows - 1) / stored.block_rows * stored.block_rows;
 }
 
+// Samples of rows, in memory that is kept from one block to the next.
+class RowReader {
+ public:
+  RowReader(const Opened& opened, Picked picked, std::string format)
+      : opened_(opened),
+        picked_(std::move(picked)),
+        format_(std::move(format)),
+        row_bytes_(static_cast<size_t>(opened.stored.width) *
+                   static_cast<size_t>(opened.stored.channels) * sample_bytes(opened.stored.type)) {
+  }
+
+  const std::vector<std::string>& names() const { return picked_.names; }
+
+  // Block by block, so that samples do not take more memory than texels.
+  void read(int first, int rows, Layers& image, int at) {
+    const int block = rows_of_block(opened_.stored);
+    for (int done = 0; done < rows; done += block) {
+      const int count = std::min(block, rows - done);
+      read_block(first + done, count);
+      if (image.layers.empty()) {
+        image = make_layers({opened_.stored.width, opened_.stored.height}, picked_.names);
+      }
+      for (int i = 0; i < count; ++i) {
+        place_row(samples_.data() + static_cast<size_t>(i) * row_bytes_, opened_.stored, picked_,
+                  at + done + i, image);
+      }
+    }
+  }
+
+ private:
+  void read_block(int first, int rows) {
+    samples_.resize(row_bytes_ * static_cast<size_t>(rows));
+    if (openimageio().read_rows(opened_.reader.get(), first, rows, samples_.data())) return;
+    refuse(fmt::format("damaged {} file: {}", format_, openimageio_error()));
+  }
+
+  const Opened& opened_;
+  Picked picked_;
+  std::string format_;
+  size_t row_bytes_;
+  std::vector<std::byte> samples_;
+};
+
 // Planes are made once the first block could be read, so a header that promises much and has
 // nothing behind it costs little.
 Layers read_pixels(const Opened& opened, const Picked& picked, const std::string& format,
                    const Reading& reading) {
-  const module::StoredImage& stored = opened.stored;
-  const int block = rows_of_block(stored);
-  const size_t row_bytes = static_cast<size_t>(stored.width) *
-                           static_cast<size_t>(stored.channels) * sample_bytes(stored.type);
-  std::vector<std::byte> samples(row_bytes * static_cast<size_t>(std::min(block, stored.height)));
+  RowReader rows(opened, picked, format);
+  const int block = rows_of_block(opened.stored);
   Layers image;
-  for (int first = 0; first < stored.height; first += block) {
-    const int rows = std::min(block, stored.height - first);
-    if (!openimageio().read_rows(opened.reader.get(), first, rows, samples.data())) {
-      refuse(fmt::format("damaged {} file: {}", format, openimageio_error()));
-    }
-    if (image.layers.empty()) image = make_layers({stored.width, stored.height}, picked.names);
-    for (int i = 0; i < rows; ++i) {
-      place_row(samples.data() + static_cast<size_t>(i) * row_bytes, stored, picked, first + i,
-                image);
-    }
+  for (int first = 0; first < opened.stored.height; first += block) {
+    rows.read(first, std::min(block, opened.stored.height - first), image, first);
     reading.let_go();
   }
   return image;
 }
+
+// What the bytes show of a file that ends too early.
+void require_complete(const std::string& format, ByteView bytes) {
+  if (format == "jpeg" && !jpeg_is_complete(bytes)) {
+    refuse("truncated JPEG file: it has no end of image");
+  }
+  if (format == "png" && !png_is_complete(bytes)) {
+    refuse("truncated PNG file: its chunks do not run to IEND");
+  }
+}
+
+/// Facts, and what is to be known before rows are read.
+struct Prepared {
+  Opened opened;
+  FileFacts facts;
+};
+
+Prepared prepare(const std::string& format, ByteView bytes, const ReadLimits& limits) {
+  Prepared prepared{open(format, bytes, limits), {}};
+  prepared.facts = facts_of(format, bytes, prepared.opened);
+  require_complete(format, bytes);
+  module::StoredImage& stored = prepared.opened.stored;
+  if (format != "tiff") stored.premultiplied = 0;
+  if (stored.premultiplied != 0) {
+    prepared.facts.notes.emplace_back("colour was stored multiplied by alpha; it was divided");
+  }
+  return prepared;
+}
+
+class OpenImageIoRows : public RowSource {
+ public:
+  OpenImageIoRows(const std::filesystem::path& path, const std::string& format,
+                  const Reading& reading)
+      : contents_(path),
+        prepared_(prepare(format, contents_.view(), reading.limits)),
+        rows_(prepared_.opened, pick(prepared_.facts.channels, reading), format) {}
+
+  bool is_upright() const { return prepared_.opened.stored.orientation == 1; }
+  const FileFacts& facts() const override { return prepared_.facts; }
+  const std::vector<std::string>& names() const override { return rows_.names(); }
+  int block_rows() const override { return rows_of_block(prepared_.opened.stored); }
+  void read(int first, int rows, Layers& image, int at) override {
+    rows_.read(first, rows, image, at);
+    contents_.let_go();
+  }
+
+ private:
+  FileContents contents_;
+  Prepared prepared_;
+  RowReader rows_;
+};
 
 }  // namespace
 
@@ -175,26 +259,23 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
 }
 
 ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const Reading& reading) {
-  Opened opened = open(format, bytes, reading.limits);
+  Prepared prepared = prepare(format, bytes, reading.limits);
   ImageFile file;
-  file.facts = facts_of(format, bytes, opened);
-  if (format == "jpeg" && !jpeg_is_complete(bytes)) {
-    refuse("truncated JPEG file: it has no end of image");
-  }
-  if (format == "png" && !png_is_complete(bytes)) {
-    refuse("truncated PNG file: its chunks do not run to IEND");
-  }
-  if (format != "tiff") opened.stored.premultiplied = 0;
+  file.facts = std::move(prepared.facts);
   try {
-    file.image = read_pixels(opened, pick(file.facts.channels, reading), format, reading);
+    file.image = read_pixels(prepared.opened, pick(file.facts.channels, reading), format, reading);
   } catch (const std::bad_alloc&) {
     refuse("too large for memory");
   }
-  if (opened.stored.premultiplied != 0) {
-    file.facts.notes.emplace_back("colour was stored multiplied by alpha; it was divided");
-  }
-  file.image = oriented(std::move(file.image), opened.stored.orientation);
+  file.image = oriented(std::move(file.image), prepared.opened.stored.orientation);
   return file;
+}
+
+std::unique_ptr<RowSource> openimageio_rows(const std::filesystem::path& path,
+                                            const std::string& format, const Reading& reading) {
+  auto rows = std::make_unique<OpenImageIoRows>(path, format, reading);
+  if (!rows->is_upright()) return nullptr;
+  return rows;
 }
 
 }  // namespace kiln::io

@@ -81,24 +81,48 @@ void flush_to_disk(const fs::path& temporary, const fs::path& path) {
   if (reason != 0 && reason != EINVAL) refuse(path, "flush to disk", reason);
 }
 
+// The name of a temporary for that file, whose folder is made.
+fs::path begin(const fs::path& path) {
+  if (!path.has_filename()) refuse(path, "write a file without a name", EINVAL);
+  make_folder(path.parent_path());
+  return temporary_beside(path);
+}
+
 }  // namespace
 
 void publish_file(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  if (!path.has_filename()) refuse(path, "write a file without a name", EINVAL);
-  make_folder(path.parent_path());
-  Temporary temporary(temporary_beside(path));
+  Temporary temporary(begin(path));
   write(temporary.path());
   flush_to_disk(temporary.path(), path);
   temporary.rename_to(path);
 }
 
-void publish_stream(const fs::path& path, const std::function<void(ByteStream&)>& write) {
-  publish_file(path, [&](const fs::path& temporary) {
-    ByteStream out(temporary, path);
+struct Publication::Unfinished {
+  explicit Unfinished(fs::path path_in)
+      : path(std::move(path_in)), temporary(begin(path)), out(temporary.path(), path) {
     out.check();
-    write(out);
-    out.close();
-  });
+  }
+
+  fs::path path;
+  Temporary temporary;
+  ByteStream out;
+};
+
+Publication::Publication(const fs::path& path) : unfinished_(std::make_unique<Unfinished>(path)) {}
+Publication::~Publication() = default;
+
+ByteStream& Publication::stream() { return unfinished_->out; }
+
+void Publication::put_in_place() {
+  unfinished_->out.close();
+  flush_to_disk(unfinished_->temporary.path(), unfinished_->path);
+  unfinished_->temporary.rename_to(unfinished_->path);
+}
+
+void publish_stream(const fs::path& path, const std::function<void(ByteStream&)>& write) {
+  Publication publication(path);
+  write(publication.stream());
+  publication.put_in_place();
 }
 
 void publish_text(const fs::path& path, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -190,6 +191,27 @@ WriteFacts write_image(const std::filesystem::path& path, const Layers& image,
 /// @error as write_image, and what making a band throws
 WriteFacts write_bands(const std::filesystem::path& path, const ImageBands& image,
                        const WriteOptions& options);
+
+/// The same for a file that grows while others do. It appears when it is finished.
+class ImageWriter {
+ public:
+  /// @param names  of the layers of every band
+  /// @error as write_image
+  ImageWriter(const std::filesystem::path& path, Size size, const std::vector<std::string>& names,
+              const WriteOptions& options);
+  ~ImageWriter();
+  ImageWriter(const ImageWriter&) = delete;
+  ImageWriter& operator=(const ImageWriter&) = delete;
+
+  /// Rows below those before. @error as write_image
+  void add(const Layers& band);
+  /// @error Fault::Output
+  WriteFacts finish();
+
+ private:
+  struct Unfinished;
+  std::unique_ptr<Unfinished> unfinished_;
+};
 
 /// What a reader of a file of this type gets: each value rounded, clamped or shared an exponent as
 /// the type has it. The difference to `image` is the error of the encoding. Layers keep their

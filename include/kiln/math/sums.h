@@ -23,7 +23,10 @@ double sum_of_terms(size_t count, WideTerm wide, ScalarTerm scalar) {
   }
   double rest = 0;
   for (; i < count; ++i) rest += scalar(i);
-  return xsimd::hadd((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest;
+  double lane[lanes];
+  store_lanes(lane, (sums[0] + sums[1]) + (sums[2] + sums[3]));
+  for (const double sum : lane) rest += sum;
+  return rest;
 }
 
 inline WideDouble load_as_double(const float* from) { return WideDouble::load_unaligned(from); }

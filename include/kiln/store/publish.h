@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "kiln/store/byte_stream.h"
@@ -26,6 +27,25 @@ void publish_file(const std::filesystem::path& path,
 /// @error Fault::Output with path and reason; what `write` throws
 void publish_stream(const std::filesystem::path& path,
                     const std::function<void(ByteStream& out)>& write);
+
+/// The same for a file that grows while others do: it appears when it is put in place, and never if
+/// that does not come to pass.
+class Publication {
+ public:
+  /// @error Fault::Output when the folder or the file cannot be made
+  explicit Publication(const std::filesystem::path& path);
+  ~Publication();
+  Publication(const Publication&) = delete;
+  Publication& operator=(const Publication&) = delete;
+
+  ByteStream& stream();
+  /// Nothing may be written afterwards. @error Fault::Output with path and reason
+  void put_in_place();
+
+ private:
+  struct Unfinished;
+  std::unique_ptr<Unfinished> unfinished_;
+};
 
 /// Publishes these bytes as they are; text needs no other treatment.
 /// @error Fault::Output with path and reason
