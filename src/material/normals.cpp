@@ -68,7 +68,8 @@ bool is_signed(const Layers& stored, NormalRange range) {
          extremes_of(stored.layers[1].plane).min < ringing;
 }
 
-bool has_third_component(const Layers& stored) {
+bool has_third_component(const Layers& stored, NormalLayout layout) {
+  if (layout != NormalLayout::Auto) return layout == NormalLayout::ThreeChannel;
   if (stored.layers.size() < 3 || stored.layers[2].name == "A") return false;
   if (!is_constant(stored.layers[2].plane)) return true;
   return is_constant(stored.layers[0].plane) && is_constant(stored.layers[1].plane);
@@ -116,7 +117,7 @@ DecodedNormals decode_normals(const Layers& stored, const NormalDecoding& decodi
   }
   DecodedNormals decoded;
   decoded.signed_range = is_signed(stored, decoding.range);
-  decoded.two_channel = !has_third_component(stored);
+  decoded.two_channel = !has_third_component(stored, decoding.layout);
   const Component xy = component_of(decoding.zero, decoded.signed_range);
   const Component z = component_of(NormalZero::Exact, decoded.signed_range);
   const float up = decoding.convention == NormalConvention::DirectX ? -1.0f : 1.0f;

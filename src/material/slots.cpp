@@ -97,12 +97,15 @@ Layers pick_channels(const Layers& file, std::string_view channels) {
   return picked;
 }
 
+std::string slot_channels(const std::vector<std::string>& names, Slot slot,
+                          std::string_view channels) {
+  if (slot != Slot::Normal || channels != "rgb") return std::string(channels);
+  if (is_grey(names)) return "r";
+  return !has_channels(names, "b") && has_channels(names, "rg") ? "rg" : "rgb";
+}
+
 Layers pick_slot(const Layers& file, Slot slot, std::string_view channels) {
-  if (slot != Slot::Normal || channels != "rgb") return pick_channels(file, channels);
-  const std::vector<std::string> names = channel_names(file);
-  if (is_grey(names)) return pick_channels(file, "r");
-  const bool two_channels = !has_channels(names, "b") && has_channels(names, "rg");
-  return pick_channels(file, two_channels ? "rg" : "rgb");
+  return pick_channels(file, slot_channels(channel_names(file), slot, channels));
 }
 
 }  // namespace kiln

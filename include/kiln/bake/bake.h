@@ -13,6 +13,7 @@
 #include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
 #include "kiln/image/texture.h"
+#include "kiln/material/map_bands.h"
 #include "kiln/math/vec.h"
 
 namespace kiln {
@@ -40,6 +41,15 @@ struct BakeFacts {
   Product product = Product::Numbers;
 };
 
+/// Maps of a set that are read band by band.
+struct MapNeeds {
+  bool resolved = false;          ///< as one BRDF per texel
+  std::vector<Slot> stored = {};  ///< as stored, where they are given
+  bool all = false;               ///< as stored, all that are given
+
+  bool any() const { return resolved || all || !stored.empty(); }
+};
+
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
 struct Needs {
   bool material = false;     ///< the SVBRDF of the set
@@ -47,7 +57,9 @@ struct Needs {
   bool sampled = false;      ///< its distribution of directions too
   bool prefiltered = false;  ///< and its specular chain and irradiance
   bool albedo = false;       ///< the directional-albedo table of the model
+  MapNeeds maps = {};        ///< the maps of the set, band by band
 };
+
 /// What a reader gets of an image that is stored as a pixel type of that name.
 using Coded = std::function<Layers(const Layers&, const std::string& pixel_type)>;
 
@@ -55,6 +67,7 @@ struct Ingredients {
   const Svbrdf* material = nullptr;
   const Light* light = nullptr;
   const AlbedoTable* albedo = nullptr;
+  const MapBands* maps = nullptr;
   SurfaceChoice surface = {};  ///< the models that the maps feed
   Coded coded = {};            ///< for bakes that state the error of an encoding
 };

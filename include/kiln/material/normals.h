@@ -31,10 +31,14 @@ enum class NormalRange { Auto, Unsigned, Signed };
 inline constexpr std::array<std::string_view, 3> normal_range_names = {"auto", "unsigned",
                                                                        "signed"};
 
+/// Whether blue is z, or z has to be rebuilt from red and green; `Auto` looks at the texels.
+enum class NormalLayout { Auto, TwoChannel, ThreeChannel };
+
 struct NormalDecoding {
   NormalConvention convention = NormalConvention::OpenGl;  ///< Auto is read as OpenGl
   NormalZero zero = NormalZero::Both;
   NormalRange range = NormalRange::Auto;
+  NormalLayout layout = NormalLayout::Auto;
 };
 
 struct DecodedNormals {
@@ -68,6 +72,32 @@ struct ConventionGuess {
       0;  ///< of nx with dh/dx; of the mixed derivatives where no height is given
   double correlation_y = 0;  ///< of ny with dh/dy, y down
   std::string reason;        ///< the numbers in words, without the verdict
+};
+
+/// Pearson correlation of two columns of numbers, gathered one pair at a time.
+struct Correlation {
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+
+  void add(double x, double y);
+  double value() const;
+  /// Texels of a picture are not independent: what counts is that the relation is visible.
+  bool significant() const;
+};
+
+/// What tells the convention of a normal map, gathered from bands of rows. The normals are decoded
+/// as if they were OpenGL.
+class ConventionEvidence {
+ public:
+  /// Correlates normals with the gradient of a height map of the same size.
+  void add(const std::array<Plane, 3>& normal, const Plane& height);
+  /// Correlates the normals' own slopes.
+  void add(const std::array<Plane, 3>& normal);
+
+  ConventionGuess by_height() const;
+  ConventionGuess by_slopes() const;
+
+ private:
+  Correlation x_, y_, mixed_;
 };
 
 /// Compares normals, decoded as if they were OpenGL, with the gradient of the height map.

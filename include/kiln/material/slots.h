@@ -137,6 +137,10 @@ Layers pick_channels(const Layers& file, std::string_view channels);
 /// it is refused later instead of being read as a slope along the diagonal.
 Layers pick_slot(const Layers& file, Slot slot, std::string_view channels);
 
+/// Those of `channels` that it would take: "rg" of a normal map without blue.
+std::string slot_channels(const std::vector<std::string>& channel_names, Slot slot,
+                          std::string_view channels);
+
 /// Whether `pick_channels` would find them.
 bool has_channels(const std::vector<std::string>& channel_names, std::string_view channels);
 
