@@ -100,6 +100,7 @@ BlockFacts pipeline_block() {
           {required(version_key()), text("name", "name of the pipeline"),
            shaped("vars", Shape::Named, "", "texts that \"{name}\" stands for elsewhere"),
            shaped("color", Shape::Block, "color", "colour management"),
+           shaped("limits", Shape::Block, "limits", "what a run may take"),
            shaped("environment", Shape::Named, "environment", "environments, by name"),
            shaped("sets", Shape::Blocks, "set", "texture sets"),
            shaped("material", Shape::Block, "material", "the model that the maps feed"),
@@ -113,6 +114,12 @@ BlockFacts color_block() {
            text("working", "colour space that everything is computed in", "lin_rec709_scene"),
            word("on_conversion", {"allow", "warn", "refuse"}, "warn",
                 "what to do when a map's own colour tag contradicts the space it is read in")}};
+}
+
+BlockFacts limits_block() {
+  return {"limits",
+          "what a run may take",
+          {text("memory", "of the whole process: 4GiB; bakes read narrower bands to keep it")}};
 }
 
 BlockFacts environment_block() {
@@ -199,8 +206,8 @@ BlockFacts material_file_block() {
 
 const std::vector<BlockFacts>& all_blocks() {
   static const std::vector<BlockFacts> blocks = {
-      pipeline_block(), color_block(),    environment_block(), set_block(),
-      map_block(),      material_block(), any_bake_block(),    material_file_block()};
+      pipeline_block(), color_block(),    limits_block(),   environment_block(),  set_block(),
+      map_block(),      material_block(), any_bake_block(), material_file_block()};
   return blocks;
 }
 

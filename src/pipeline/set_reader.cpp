@@ -260,6 +260,12 @@ std::optional<NormalForm> SetReader::survey_normals() const {
   return survey.form();
 }
 
+int SetReader::channels_read() const {
+  int channels = 0;
+  for (const File& file : files_) channels += static_cast<int>(file.rows.facts().channels.size());
+  return channels;
+}
+
 MapRows SetReader::next(int rows) {
   MapRows read;
   read.rows = {next_row_, rows};

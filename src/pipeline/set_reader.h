@@ -26,6 +26,8 @@ class SetReader {
 
   /// What bakes see of it; outlived by the reader.
   const MapBands& bands() const { return bands_; }
+  /// Of all files together.
+  int channels_read() const;
   /// The rows below those before.
   MapRows next(int rows);
   /// What became of each slot, and of the texels read so far.

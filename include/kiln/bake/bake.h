@@ -54,7 +54,10 @@ struct MapNeeds {
 
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
 struct Needs {
-  bool material = false;     ///< the SVBRDF of the set
+  bool material = false;  ///< the SVBRDF of the set
+  /// So many texels of it each way are enough: larger sets may be halved until they come near.
+  /// Without a width all are wanted.
+  Size material_for = {};
   bool light = false;        ///< an environment (key `env`)
   bool sampled = false;      ///< its distribution of directions too
   bool prefiltered = false;  ///< and its specular chain and irradiance
@@ -116,7 +119,7 @@ struct MapSheet {
 
 struct Baked {
   std::vector<Artifact> artifacts;
-  std::optional<MapSheet> sheet = {};                      ///< of bakes that read maps band by band
+  std::optional<MapSheet> sheet = {};                   ///< of bakes that read maps band by band
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };
