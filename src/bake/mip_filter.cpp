@@ -14,7 +14,7 @@
 namespace kiln {
 namespace {
 
-constexpr int judged_levels = 5;  // below the first: footprints of up to 32 x 32 texels
+constexpr int judged_levels = 5;   // below the first: footprints of up to 32 x 32 texels
 constexpr int judged_texels = 16;  // of each
 constexpr int half_vectors = 512;
 
@@ -77,8 +77,8 @@ MipFilter::MipFilter(std::vector<MipMap> maps, const std::vector<Size>& sizes, i
     : sizes_(sizes), judged_(judged), errors_(sizes.size()) {
   for (MipMap& map : maps) {
     const int channels = map.channels;
-    maps_.push_back({std::move(map), MipCascade(sizes, channels),
-                     std::vector<double>(sizes.size()), {}});
+    maps_.push_back(
+        {std::move(map), MipCascade(sizes, channels), std::vector<double>(sizes.size()), {}});
   }
 }
 
@@ -132,8 +132,8 @@ void MipFilter::judge(const MipBand& band, const std::vector<MipRows>& made) {
       continue;
     }
     const int bands = std::max(1, sizes_[0].height / std::max(1, band.rows));
-    const uint32_t bits = combine_hash(static_cast<uint32_t>(band.first),
-                                       static_cast<uint32_t>(rows.level));
+    const uint32_t bits =
+        combine_hash(static_cast<uint32_t>(band.first), static_cast<uint32_t>(rows.level));
     if (bits % static_cast<uint32_t>(bands) >= 2 * judged_texels) continue;
     const auto x = static_cast<int>(mix_bits(bits) % static_cast<uint32_t>(rows.image.size.width));
     const auto y =

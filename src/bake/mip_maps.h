@@ -39,7 +39,7 @@ struct MipMap {
   /// Sum over a row of what an average is to keep, so that the means of levels can be compared.
   /// Empty: there is no such thing.
   std::function<double(int width, const float* const* numbers, const float* const* layers)> energy;
-  std::string energy_name;        ///< "alpha^2"
+  std::string energy_name;         ///< "alpha^2"
   bool energy_of_numbers = false;  ///< else of layers, and numbers may be null
 };
 

@@ -186,7 +186,9 @@ Plane roughness_of(const MapBands& maps, const SlotMaps& stored, Size size) {
 }
 
 MipBand band_of(const MapBands& maps, const MapRows& rows) {
-  MipBand band{.first = rows.rows.first, .rows = rows.rows.count};
+  MipBand band;
+  band.first = rows.rows.first;
+  band.rows = rows.rows.count;
   band.stored = maps.stored(rows);
   band.linear = maps.linear(rows);
   for (SlotMaps* read : {&band.stored, &band.linear}) {
@@ -194,8 +196,7 @@ MipBand band_of(const MapBands& maps, const MapRows& rows) {
   }
   band.roughness = roughness_of(maps, band.stored, {maps.size.width, rows.rows.count});
   if (maps.normal && image_of(maps, Slot::Normal) != nullptr) {
-    band.normal =
-        decode_normals(band.stored.at(Slot::Normal).image, maps.normal->decoding).normal;
+    band.normal = decode_normals(band.stored.at(Slot::Normal).image, maps.normal->decoding).normal;
   }
   return band;
 }
@@ -230,8 +231,9 @@ Params<Settings> MipsBake::params() {
       flag_param("anisotropy", &Settings::anisotropy,
                  "also a map of alpha_x, alpha_y and their angle (lean)"),
       integer_param("levels", &Settings::levels, {0, 32}, "how many, the first included; 0: all"),
-      number_param("alpha_test", &Settings::alpha_test, {0, 1}, "",
-                   "opacity above which cutouts are solid; levels keep its share of texels; 0: off"),
+      number_param(
+          "alpha_test", &Settings::alpha_test, {0, 1}, "",
+          "opacity above which cutouts are solid; levels keep its share of texels; 0: off"),
       choice_param("format", &Settings::format, {"exr", "tif", "tx", "dds", "ktx2", "files"},
                    "container of all levels, or a file per level; default: as the output's name "
                    "says, else exr")};
@@ -240,9 +242,9 @@ Params<Settings> MipsBake::params() {
 Needs MipsBake::needs(const Settings& settings) {
   const std::vector<Slot> named = slots_named(settings);
   if (settings.anisotropy && settings.method != NormalFilter::Lean) {
-    throw Error(Fault::Usage, fmt::format("anisotropy: method {} tells none, expected lean",
-                                          normal_filter_names[static_cast<size_t>(
-                                              settings.method)]));
+    throw Error(Fault::Usage,
+                fmt::format("anisotropy: method {} tells none, expected lean",
+                            normal_filter_names[static_cast<size_t>(settings.method)]));
   }
   Needs needs;
   needs.maps.all = named.empty();
@@ -261,8 +263,7 @@ Baked MipsBake::bake(const Settings& settings, const Ingredients& ingredients) {
   sheet.levels = static_cast<int>(sizes.size());
   sheet.file_per_level = settings.format == "files";
   if (!settings.format.empty() && !sheet.file_per_level) sheet.extension = "." + settings.format;
-  const auto filter =
-      std::make_shared<MipFilter>(std::move(chosen.maps), sizes, chosen.judged);
+  const auto filter = std::make_shared<MipFilter>(std::move(chosen.maps), sizes, chosen.judged);
   sheet.read = [&maps](const MapRows& rows) -> std::shared_ptr<void> {
     return std::make_shared<MipBand>(band_of(maps, rows));
   };

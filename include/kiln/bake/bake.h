@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/bake/mip_sheet.h"
 #include "kiln/bake/surface_choice.h"
 #include "kiln/core/param.h"
 #include "kiln/image/bands.h"
@@ -116,6 +117,7 @@ struct Sheet {
 
 struct Baked {
   std::vector<Artifact> artifacts;
+  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
   std::optional<Sheet> sheet = {};                      ///< of bakes that read maps band by band
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...

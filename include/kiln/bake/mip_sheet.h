@@ -16,7 +16,7 @@ namespace kiln {
 struct MipFile {
   std::string name;                ///< of the map
   std::vector<std::string> names;  ///< of the layers
-  std::string preferred_type;      ///< "half": taken where the format holds it and none is asked for
+  std::string preferred_type;  ///< "half": taken where the format holds it and none is asked for
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
   /// Of colours: the space that all levels are in, and the one that the map is stored in, which
   /// files of integers keep. Empty: numbers.
