@@ -109,7 +109,7 @@ Baked ConvertBake::bake(const Settings& settings, const Ingredients& ingredients
   std::vector<const GivenMap*> given;
   for (const GivenMap& map : maps.given) given.push_back(&map);
   Baked baked;
-  Sheet& sheet = baked.sheet.emplace();
+  MapSheet& sheet = baked.sheet.emplace();
   for (const Target& target : targets_of(settings)) {
     sheet.files.push_back(target.is_color ? color_file(target.name, extension, maps)
                                           : map_file(target.name, extension, {"Y"}));

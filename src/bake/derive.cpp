@@ -153,7 +153,7 @@ Baked DeriveBake::bake(const Settings& settings, const Ingredients& ingredients)
   const std::vector<Wanted> wanted = wanted_by(settings);
   const std::string extension = settings.format.empty() ? ".exr" : "." + settings.format;
   Baked baked;
-  Sheet& sheet = baked.sheet.emplace();
+  MapSheet& sheet = baked.sheet.emplace();
   for (const Wanted& one : wanted) {
     Artifact file =
         one.quantity->is_color

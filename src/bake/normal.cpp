@@ -99,7 +99,7 @@ Baked NormalBake::bake(const Settings& settings, const Ingredients& ingredients)
   const GivenMap& map = required(maps, from_height ? Slot::Height : Slot::Normal);
   const NormalConvention convention = convention_of(settings);
   Baked baked;
-  Sheet& sheet = baked.sheet.emplace();
+  MapSheet& sheet = baked.sheet.emplace();
   sheet.files.push_back(map_file(convention == NormalConvention::OpenGl ? "normal_gl" : "normal_dx",
                                  map_extension(settings.format, maps),
                                  settings.two_channel ? std::vector<std::string>{"R", "G"}

@@ -141,7 +141,7 @@ Baked PackBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const std::vector<Packed> packed = packed_by(settings, maps, baked);
   if (packed.empty()) throw Error(Fault::Input, "none of the maps that the layout packs is given");
   const std::string extension = map_extension(settings.format, maps);
-  Sheet& sheet = baked.sheet.emplace();
+  MapSheet& sheet = baked.sheet.emplace();
   for (const Packed& one : packed) sheet.files.push_back(artifact_of(one, extension));
   const NormalConvention convention = convention_of(settings);
   sheet.make = [&maps, packed, convention](const MapRows& rows) {

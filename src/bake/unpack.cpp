@@ -56,7 +56,7 @@ Needs UnpackBake::needs(const Settings& settings) {
 Baked UnpackBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const MapBands& maps = *ingredients.maps;
   Baked baked;
-  Sheet& sheet = baked.sheet.emplace();
+  MapSheet& sheet = baked.sheet.emplace();
   std::vector<Slot> slots;
   for (const GivenMap& map : maps.given) {
     if (map.is_constant) continue;

@@ -18,7 +18,6 @@ struct BakeArguments {
   MaterialOptions material;
   EnvironmentOptions environment;
   std::unique_ptr<BakeOptions> options;
-  bool lit = false;
 };
 
 int run(const BakeArguments& arguments, const Globals& globals) {
@@ -26,17 +25,14 @@ int run(const BakeArguments& arguments, const Globals& globals) {
     throw Error(Fault::Usage, "expected a MATERIAL: a folder of maps or a material file");
   }
   Pipeline pipeline;
-  if (arguments.lit) {
-    if (arguments.environment.path.empty()) {
-      throw Error(Fault::Usage, "no environment is given: --env IMAGE");
-    }
+  std::vector<std::pair<std::string, std::string>> keys;
+  if (!arguments.environment.path.empty()) {
     pipeline.environments.push_back(arguments.environment.choice());
-    pipeline.bakes.push_back(arguments.options->choice({{"env", "env"}}));
-  } else {
-    pipeline.bakes.push_back(arguments.options->choice({}));
+    keys.emplace_back("env", "env");
   }
+  pipeline.bakes.push_back(arguments.options->choice(std::move(keys)));
   arguments.material.add_to(pipeline);
-  require_one_set(pipeline, arguments.material.name);
+  require_one_set(pipeline);
   return run_one_task(std::move(pipeline), arguments.output, globals);
 }
 
@@ -54,7 +50,6 @@ Action declare(CLI::App& app, const BakeFacts& facts) {
   arguments->options = std::make_unique<BakeOptions>(app, facts.name, std::vector<std::string>{});
   arguments->material.declare(app);
   if (needs.material || needs.albedo) arguments->material.declare_models(app);
-  arguments->lit = needs.light;
   if (needs.light) {
     app.add_option("--env", arguments->environment.path, "image to light it with")
         ->type_name("IMAGE");

@@ -331,7 +331,7 @@ SlotMaps SetReader::linear(const MapRows& rows) const {
     if (map.from.empty()) continue;
     SlotMap& filled = linear[map.planned.slot] = head(map);
     filled.image = as_rgb(picked(map, rows));
-    config_.convert(filled.image, map.from, color_.working);
+    colors_to_working(filled.image, map.from, map.planned, config_, color_.working);
     filled.image = fitted(map, std::move(filled.image), rows);
   }
   return linear;

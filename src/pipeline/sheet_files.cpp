@@ -53,7 +53,7 @@ struct File {
   std::unique_ptr<ImageWriter> writer;
 };
 
-std::vector<File> open_files(const Plan& plan, const Task& task, const Sheet& sheet, Size size) {
+std::vector<File> open_files(const Plan& plan, const Task& task, const MapSheet& sheet, Size size) {
   std::vector<File> files;
   for (const Artifact& artifact : sheet.files) {
     const std::string name = map_file_name(task, artifact, sheet.files.size());
@@ -103,7 +103,7 @@ std::string map_file_name(const Task& task, const Artifact& artifact, size_t fil
       .generic_string();
 }
 
-Written write_sheet(const Plan& plan, const Task& task, const Sheet& sheet, SetReader& reader,
+Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed) {
   constexpr int rows_of_band = 64, bands_at_once = 6;
   const Size size = reader.bands().size;

@@ -16,7 +16,7 @@ std::string map_file_name(const Task& task, const Artifact& artifact, size_t fil
 /// Makes the files of a sheet: rows are read, made and written side by side, each file whole or not
 /// at all.
 /// @param heed  called now and then; throws to stop
-Written write_sheet(const Plan& plan, const Task& task, const Sheet& sheet, SetReader& reader,
+Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed);
 
 }  // namespace kiln

@@ -109,7 +109,7 @@ struct Artifact {
 };
 
 /// Files of one size that are made together, a band of rows at a time, from the maps of a set.
-struct Sheet {
+struct MapSheet {
   std::vector<Artifact> files;  ///< their images have no texels: names of layers
   /// The same rows of every file. May be called from many threads at once.
   std::function<std::vector<Layers>(const MapRows&)> make;
@@ -117,8 +117,8 @@ struct Sheet {
 
 struct Baked {
   std::vector<Artifact> artifacts;
-  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
-  std::optional<Sheet> sheet = {};                      ///< of bakes that read maps band by band
+  std::optional<MipSheet> mips = {};  ///< likewise, with levels
+  std::optional<MapSheet> sheet = {};                      ///< of bakes that read maps band by band
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };
