@@ -116,6 +116,8 @@ class Choosing {
       chosen_.maps.push_back(color_mips(map, maps_, choice));
     } else if (map.slot == Slot::Normal) {
       chosen_.maps.push_back(normal_mips(map, choice_));
+    } else if (map.slot == Slot::AnisotropyAngle) {
+      chosen_.maps.push_back(angle_mips(map));
     } else if (map.slot != Slot::Opacity) {
       chosen_.maps.push_back(number_mips(map));
     } else if (!named_.empty() || !within_colors()) {

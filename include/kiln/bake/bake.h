@@ -117,8 +117,8 @@ struct MapSheet {
 
 struct Baked {
   std::vector<Artifact> artifacts;
-  std::optional<MipSheet> mips = {};  ///< likewise, with levels
-  std::optional<MapSheet> sheet = {};                      ///< of bakes that read maps band by band
+  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
+  std::optional<MapSheet> sheet = {};                   ///< of bakes that read maps band by band
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };
