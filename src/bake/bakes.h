@@ -3,6 +3,7 @@
 
 #include "kiln/bake/bake.h"
 #include "kiln/brdf/fresnel.h"
+#include "kiln/material/normal_filter.h"
 #include "kiln/material/workflow.h"
 
 namespace kiln {
@@ -140,6 +141,26 @@ struct UnpackBake {
   };
   static Params<Settings> params();
   static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
+/// Maps with all their levels.
+struct MipsBake {
+  static constexpr const char* name = "mips";
+  static constexpr const char* summary = "maps with all their levels, roughness widened by normals";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  struct Settings {
+    std::string map = "all";
+    NormalFilter method = NormalFilter::Vmf;
+    double strength = 1, threshold = 1;
+    bool anisotropy = false;
+    int levels = 0;
+    double alpha_test = 0;
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);  ///< refuses settings that do not fit
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 

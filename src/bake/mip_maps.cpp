@@ -160,9 +160,20 @@ float coverage_scale(const Plane& opacity, double share, float limit) {
   }
   const auto count = std::lround(share * static_cast<double>(values.size()));
   if (count <= 0 || static_cast<size_t>(count) >= values.size()) return 1.0f;
-  const auto above = values.end() - count;
-  std::nth_element(values.begin(), above, values.end());
-  const float middle = 0.5f * (*above + *std::max_element(values.begin(), above));
+  const auto cut = values.end() - count;
+  std::nth_element(values.begin(), cut, values.end());
+  const float value = *cut;
+  // Texels of one value are solid together or not at all: whichever comes nearer.
+  long over = 0, same = 0;
+  float lower = 0.0f, higher = 1.0f;
+  for (const float v : values) {
+    over += v > value;
+    same += v == value;
+    if (v < value) lower = std::max(lower, v);
+    if (v > value) higher = std::min(higher, v);
+  }
+  const bool solid = over + same - count <= count - over;
+  const float middle = 0.5f * (value + (solid ? lower : higher));
   return middle > 0 ? limit / middle : 1.0f;
 }
 
@@ -249,6 +260,31 @@ MipMap number_mips(const GivenMap& map) {
   mips.energy_name = mips.file.name;
   mips.energy = [](int width, const float* const*, const float* const* layers) {
     return sum_of_layer(width, layers[0]);
+  };
+  return mips;
+}
+
+// A lobe turned by half a turn is the same lobe, so that directions of twice the angle are
+// averaged.
+MipMap angle_mips(const GivenMap& map) {
+  MipMap mips = number_mips(map);
+  if (map.channels != 1) return mips;  // directions already
+  constexpr double twice = 4 * pi;     // of whole turns
+  mips.channels = 2;
+  mips.energy = {};
+  mips.fill = [slot = map.slot](const MipBand& band, int y, float* const* numbers) {
+    const Plane& plane = plane_of(band.stored, slot, 0);
+    const float* turns = plane.row(y);
+    for (int x = 0; x < plane.width(); ++x) {
+      numbers[0][x] = static_cast<float>(std::cos(twice * turns[x]));
+      numbers[1][x] = static_cast<float>(std::sin(twice * turns[x]));
+    }
+  };
+  mips.store = [](int, int width, const float* const* numbers, float* const* layers) {
+    for (int x = 0; x < width; ++x) {
+      const double turns = std::atan2(numbers[1][x], numbers[0][x]) / twice;
+      layers[0][x] = static_cast<float>(turns < 0 ? turns + 0.5 : turns);
+    }
   };
   return mips;
 }

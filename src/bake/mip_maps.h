@@ -54,6 +54,8 @@ struct MipChoice {
 
 MipMap color_mips(const GivenMap& map, const MapBands& bands, const MipChoice& choice);
 MipMap number_mips(const GivenMap& map);
+/// Angles of anisotropy, in turns.
+MipMap angle_mips(const GivenMap& map);
 MipMap opacity_mips(const GivenMap& map, const MipChoice& choice);
 MipMap normal_mips(const GivenMap& map, const MipChoice& choice);
 /// @param gloss  stored is 1 - roughness

@@ -116,6 +116,8 @@ class Choosing {
       chosen_.maps.push_back(color_mips(map, maps_, choice));
     } else if (map.slot == Slot::Normal) {
       chosen_.maps.push_back(normal_mips(map, choice_));
+    } else if (map.slot == Slot::AnisotropyAngle) {
+      chosen_.maps.push_back(angle_mips(map));
     } else if (map.slot != Slot::Opacity) {
       chosen_.maps.push_back(number_mips(map));
     } else if (!named_.empty() || !within_colors()) {
@@ -186,7 +188,9 @@ Plane roughness_of(const MapBands& maps, const SlotMaps& stored, Size size) {
 }
 
 MipBand band_of(const MapBands& maps, const MapRows& rows) {
-  MipBand band{.first = rows.rows.first, .rows = rows.rows.count};
+  MipBand band;
+  band.first = rows.rows.first;
+  band.rows = rows.rows.count;
   band.stored = maps.stored(rows);
   band.linear = maps.linear(rows);
   for (SlotMaps* read : {&band.stored, &band.linear}) {

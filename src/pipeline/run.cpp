@@ -9,6 +9,7 @@
 
 #include "inputs.h"
 #include "kiln/store/publish.h"
+#include "mip_files.h"
 #include "outputs.h"
 #include "sheet_files.h"
 
@@ -193,10 +194,15 @@ class Runner {
     record.figures = baked.figures;
     add(write_outputs(plan_, task, baked, config_), record);
     if (!reader) return;
+    const auto heed = [this] {
+      if (interrupted()) throw Error(Fault::Interrupted, "stopped by a signal");
+    };
+    if (baked.mips) {
+      add(write_mips(plan_, task, *baked.mips, *reader, config_, heed), record);
+      const auto figures = baked.mips->figures();
+      record.figures.insert(record.figures.end(), figures.begin(), figures.end());
+    }
     if (baked.sheet) {
-      const auto heed = [this] {
-        if (interrupted()) throw Error(Fault::Interrupted, "stopped by a signal");
-      };
       add(write_sheet(plan_, task, *baked.sheet, *reader, config_, heed), record);
     }
     tell(reader->record());

@@ -89,6 +89,7 @@ SetReader::SetReader(const PlannedSet& set, const ColorChoice& color, const Colo
   bands_.name = set.name;
   bands_.working = color.working;
   bands_.stored = [this](const MapRows& rows) { return stored(rows); };
+  bands_.linear = [this](const MapRows& rows) { return linear(rows); };
   bands_.svbrdf = [this](const MapRows& rows) { return svbrdf(rows); };
   bands_.whole = [this](Slot slot) {
     const Map& map = *find(slot);
@@ -328,6 +329,18 @@ SlotMaps SetReader::stored(const MapRows& rows) const {
     filled.image = fitted(map, std::move(filled.image), rows);
   }
   return stored;
+}
+
+SlotMaps SetReader::linear(const MapRows& rows) const {
+  SlotMaps linear;
+  for (const Map& map : maps_) {
+    if (map.from.empty()) continue;
+    SlotMap& filled = linear[map.planned.slot] = head(map);
+    filled.image = as_rgb(picked(map, rows));
+    colors_to_working(filled.image, map.from, map.planned, config_, color_.working);
+    filled.image = fitted(map, std::move(filled.image), rows);
+  }
+  return linear;
 }
 
 Svbrdf SetReader::svbrdf(const MapRows& rows) const {

@@ -67,6 +67,7 @@ class SetReader {
   Layers picked(const Map& map, const MapRows& rows) const;
   Layers fitted(const Map& map, Layers image, const MapRows& rows) const;
   SlotMaps stored(const MapRows& rows) const;
+  SlotMaps linear(const MapRows& rows) const;
   Svbrdf svbrdf(const MapRows& rows) const;
   SlotMap head(const Map& map) const;
 

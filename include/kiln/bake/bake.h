@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/bake/mip_sheet.h"
 #include "kiln/bake/surface_choice.h"
 #include "kiln/core/param.h"
 #include "kiln/image/bands.h"
@@ -120,6 +121,7 @@ struct MapSheet {
 struct Baked {
   std::vector<Artifact> artifacts;
   std::optional<MapSheet> sheet = {};                   ///< of bakes that read maps band by band
+  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };

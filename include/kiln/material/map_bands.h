@@ -47,6 +47,8 @@ struct MapBands {
   /// Values as stored: colours still encoded, normals as numbers; scaled and offset where the set
   /// says so, roughness perceptual. Constants have no image.
   std::function<SlotMaps(const MapRows&)> stored;
+  /// Colours alone, in the working space.
+  std::function<SlotMaps(const MapRows&)> linear;
   /// One BRDF per texel, colours in the working space.
   std::function<Svbrdf(const MapRows&)> svbrdf;
   /// All rows of one map as stored, at its own size; the file is read for it.
