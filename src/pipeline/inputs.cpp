@@ -49,6 +49,7 @@ LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorC
   Svbrdf& whole = loaded.svbrdf;
   whole.name = set.name;
   whole.size = {size.width >> halvings, size.height >> halvings};
+  whole.wrap = reader.bands().wrap;
   if (reader.bands().find(Slot::Anisotropy)) whole.anisotropy = Plane(whole.size);
   if (reader.bands().find(Slot::AnisotropyAngle)) whole.anisotropy_angle = Plane(whole.size);
   for (Plane* plane : planes_of(whole)) *plane = Plane(whole.size);

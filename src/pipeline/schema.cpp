@@ -142,12 +142,15 @@ BlockFacts environment_block() {
 }
 
 BlockFacts set_block() {
-  BlockFacts block{"set",
-                   "one texture set, or one per folder that a pattern matches",
-                   {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
-                    text("path", "one folder, a set"), text("name", "name of the set"),
-                    shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
-                    listed(word("naming", naming_words(), "", "naming schemes to try, in order"))}};
+  BlockFacts block{
+      "set",
+      "one texture set, or one per folder that a pattern matches",
+      {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
+       text("path", "one folder, a set; or a glTF or MaterialX file, a set a material"),
+       text("material", "the one material of that file that is wanted"),
+       text("name", "name of the set"),
+       shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
+       listed(word("naming", naming_words(), "", "naming schemes to try, in order"))}};
   return with_reading_keys(std::move(block));
 }
 
