@@ -8,7 +8,9 @@ namespace {
 
 template <class Bake>
 BakeFacts describe() {
-  return {Bake::name, Bake::summary, Bake::scope, facts_of(Bake::params()), Bake::product};
+  BakeFacts facts{Bake::name, Bake::summary, Bake::scope, facts_of(Bake::params()), Bake::product};
+  if constexpr (requires { Bake::own_lights; }) facts.own_lights = Bake::own_lights;
+  return facts;
 }
 
 // Text to settings to product, for any bake on the list.
@@ -45,7 +47,8 @@ struct BakeList {
 };
 
 // THE list: help, parsing, docs, the pipeline's schema and the contract tests follow from it.
-using Bakes = BakeList<LutBake, EnvironmentBake, PreviewBake>;
+using Bakes = BakeList<LutBake, EnvironmentBake, PreviewBake, DeriveBake, ConvertBake, PackBake,
+                       UnpackBake, NormalBake, MipsBake>;
 
 }  // namespace
 

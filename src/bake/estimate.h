@@ -17,6 +17,25 @@ namespace kiln {
 // hemisphere above the shading normal, also where that reaches below the plane of the texel: a
 // tilted texel then receives as much as a flat one. Ambient occlusion dims the diffuse lobe only.
 
+// Directional lights are summed, not sampled: f E cos for each. Their light counts from above the
+// shading normal too, and is not dimmed by ambient occlusion, which is about light from all around.
+
+/// f E cos of a light in the direction `toward`; nothing where that lies below the horizon of the
+/// shading normal.
+/// @param toward      unit, in the environment's space
+/// @param irradiance  on a plane that faces the light
+template <class F, class Diffuse>
+Vec3<F> reflect_distant(const ShadingPoint<F, Diffuse>& point, const AlbedoTable& table,
+                        const Vec3<F>& toward, const Vec3<F>& irradiance) {
+  Vec3<F> wi = point.frame.to_local(toward);
+  const auto above = wi.z > F(0);
+  wi.z = max(wi.z, F(1e-6));
+  const Vec3<F> wm = half_vector(point.wo, wi);
+  const Albedo<F> albedo{point.terms_o, table.terms(point.row, wi.z), point.average};
+  const Reflected<F> f = point.surface.eval(point.wo, wi, wm, point.surface.ggx.D(wm), albedo);
+  return (f.specular + f.diffuse) * irradiance * select(above, wi.z, F(0));
+}
+
 /// f L cos / (p_e + p_b) for the direction wi in the shading frame.
 template <class F, class Diffuse>
 Vec3<F> weigh_light(const ShadingPoint<F, Diffuse>& point, const AlbedoTable& table, Vec3<F> wi,

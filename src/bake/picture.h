@@ -32,6 +32,9 @@ class Picture {
   /// How many positions inside a pixel are shaded: 1 where picture and map texels coincide.
   int positions() const { return exact_ ? 1 : subpixels; }
 
+  /// A direction of the picture's space (+X right, +Y up, +Z to the viewer) in the environment's.
+  Vec3<double> to_environment(const Vec3<double>& w) const;
+
   /// Share of the pixel that the surface covers [0..1].
   float coverage(int x, int y) const;
 
@@ -53,7 +56,6 @@ class Picture {
   Spot spot_of_ball(double px, double py) const;
   Spot spot_on_ball(const Vec3<double>& normal) const;
   void read(const Spot& spot, const PlaneRange& planes, float* values) const;
-  Vec3<double> to_environment(const Vec3<double>& w) const;
   Vec3<double> from_environment(const Vec3<double>& w) const;
   double radius() const;
 

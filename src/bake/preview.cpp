@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "bakes.h"
-#include "preview_glass.h"
-#include "preview_rows.h"
+#include "preview_contact.h"
+#include "preview_difference.h"
+#include "preview_render.h"
 
 namespace kiln {
 namespace {
@@ -44,76 +45,21 @@ Size picture_size(const Settings& settings, Size map) {
   return settings.shape == PreviewBake::Shape::Sphere ? Size{edge, edge} : map;
 }
 
+// A plane on a sheet is seen from before and below, as a table is.
+Vec3<double> viewer_of(const Settings& settings) {
+  if (!settings.view.empty()) return parse_view(settings.view);
+  return parse_view(settings.shape == PreviewBake::Shape::Contact ? "45,-90" : "0,0");
+}
+
 Picture make_picture(const Settings& settings, const Svbrdf& maps) {
   const bool ball = settings.shape == PreviewBake::Shape::Sphere;
-  return Picture(
-      maps, {ball, picture_size(settings, maps.size), parse_view(settings.view), settings.rotate});
+  return Picture(maps,
+                 {ball, picture_size(settings, maps.size), viewer_of(settings), settings.rotate});
 }
 
-double mean_of(const Layers& image, const std::vector<std::string>& names) {
-  double sum = 0;
-  for (const std::string& name : names) {
-    const Plane& plane = *image.find(name);
-    for (int y = 0; y < plane.height(); ++y) {
-      for (float value : plane.texels_of_row(y)) sum += value;
-    }
-  }
-  return sum / (static_cast<double>(area(image.size)) * static_cast<double>(names.size()));
-}
-
-const std::vector<std::string> shape_words = {"flat", "sphere"};
+const std::vector<std::string> shape_words = {"flat", "sphere", "contact"};
 const std::vector<std::string> mode_words = {"reference", "split-sum", "difference"};
-const std::vector<std::string> error_channels = {"stderr.R", "stderr.G", "stderr.B"};
-constexpr int most_samples = 1 << 14;
-
-struct Rendered {
-  Layers image;
-  int samples = 0;
-  double mean_error = 0;
-  double lost = 0, trapped = 0;  ///< of glass
-};
-
-bool is_glass(const ShadingInputs& inputs) { return inputs.surface.bsdf == "glass"; }
-
-Rendered render_once(const Picture& picture, const ShadingInputs& inputs, int samples, int seed) {
-  Rendered rendered;
-  rendered.samples = samples;
-  if (is_glass(inputs)) {
-    GlassPicture glass = estimate_glass(picture, inputs, samples, seed);
-    rendered.image = std::move(glass.image);
-    rendered.lost = glass.lost;
-    rendered.trapped = glass.trapped;
-  } else {
-    rendered.image = estimate_picture(picture, inputs, samples, seed);
-  }
-  rendered.mean_error = mean_of(rendered.image, error_channels);
-  return rendered;
-}
-
-// Doubles the samples until the mean standard error is as asked for.
-Rendered render_reference(const Picture& picture, const ShadingInputs& inputs,
-                          const Settings& settings) {
-  int samples = whole_samples(settings.samples, picture.positions());
-  while (true) {
-    Rendered rendered = render_once(picture, inputs, samples, settings.seed);
-    const double error = rendered.mean_error;
-    const bool good = settings.target_error <= 0 || error <= settings.target_error;
-    if (good || 2 * samples > most_samples) return rendered;
-    samples *= 2;
-  }
-}
-
-void subtract(Layers& from, const Layers& image) {
-  for (const char* name : {"R", "G", "B"}) {
-    auto layer = std::find_if(from.layers.begin(), from.layers.end(),
-                              [name](const Layer& l) { return l.name == name; });
-    const Plane& other = *image.find(name);
-    for (int y = 0; y < from.size.height; ++y) {
-      float* to = layer->plane.row(y);
-      for (int x = 0; x < from.size.width; ++x) to[x] -= other.at(x, y);
-    }
-  }
-}
+constexpr int most_cell = 4096;  // of a picture on a contact sheet [texel]
 
 std::vector<std::pair<std::string, std::string>> describe_file(const Settings& settings,
                                                                const ShadingInputs& inputs) {
@@ -145,17 +91,44 @@ void add_model_notes(const Settings& settings, const ShadingInputs& inputs, Bake
   }
 }
 
-void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& reference,
+void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& rendered,
                  Baked& baked) {
-  baked.figures = {{"samples", reference.samples}, {"mean standard error", reference.mean_error}};
-  if (is_glass(inputs)) {
-    baked.figures.emplace_back("energy lost", reference.lost);
-    baked.figures.emplace_back("light ended inside", reference.trapped);
+  baked.figures.emplace_back("samples", rendered.mean_samples);
+  if (settings.target_error > 0) {
+    baked.figures.emplace_back("most samples", rendered.most_samples);
   }
-  if (settings.target_error > 0 && reference.mean_error > settings.target_error) {
-    baked.notes.push_back(fmt::format("mean standard error {:.3g} after {} samples, asked for {}",
-                                      reference.mean_error, reference.samples,
-                                      settings.target_error));
+  baked.figures.emplace_back("mean standard error", rendered.mean_error);
+  if (is_glass(inputs)) {
+    baked.figures.emplace_back("energy lost", rendered.lost);
+    baked.figures.emplace_back("light ended inside", rendered.trapped);
+  }
+  if (rendered.above_target > 0) {
+    baked.notes.push_back(
+        fmt::format("{:.3g} % of the pixels lie in blocks whose mean standard error is above {} "
+                    "after {} samples",
+                    100 * rendered.above_target, settings.target_error, rendered.most_samples));
+  }
+}
+
+void bake_contact(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+                  Artifact& made, Rendered& whole) {
+  if (std::max(settings.size.width, settings.size.height) > most_cell) {
+    throw Error(Fault::Usage, fmt::format("size: found {}x{} for each picture of a contact sheet, "
+                                          "expected at most {}",
+                                          settings.size.width, settings.size.height, most_cell));
+  }
+  ContactSheet sheet = make_contact_sheet(maps, inputs, settings, viewer_of(settings));
+  whole = std::move(sheet.whole);
+  made.view = std::move(sheet.view);
+}
+
+void bake_picture(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+                  Baked& baked, Rendered& whole) {
+  whole = render_preview(make_picture(settings, maps), inputs, settings);
+  if (settings.mode != PreviewBake::Mode::Difference) return;
+  baked.artifacts.front().view = difference_view(whole.image);
+  for (auto& figure : difference_figures(whole.image, whole.mean_radiance)) {
+    baked.figures.push_back(std::move(figure));
   }
 }
 
@@ -163,17 +136,21 @@ void add_figures(const Settings& settings, const ShadingInputs& inputs, const Re
 
 Params<Settings> PreviewBake::params() {
   return {
-      word_param("shape", &Settings::shape, shape_words, "a plane or a ball"),
+      word_param("shape", &Settings::shape, shape_words, "a plane, a ball, or a sheet of both"),
       word_param("mode", &Settings::mode, mode_words,
                  "true light transport, what an engine shows, or the second minus the first"),
       integer_param("samples", &Settings::samples, {1, most_samples},
-                    "light directions per texel (reference), rounded up to whole repetitions"),
+                    "directions per texel (reference), rounded up to whole repetitions"),
       number_param("target_error", &Settings::target_error, {0, 1e9}, "",
-                   "double the samples until the mean standard error is this; 0: do not"),
+                   "doubles samples of each 16x16 block to this mean error; 0: no"),
       extent_param("size", &Settings::size, {1, 32768}, "of the picture"),
-      text_param("view", &Settings::view, "THETA,PHI of the viewer of a plane [degree]"),
+      text_param("view", &Settings::view,
+                 "THETA,PHI of the viewer of a plane [degree], 0,0 unless given"),
       number_param("rotate", &Settings::rotate, {-360, 360}, "[degree]",
                    "turns the environment, positive turns +Z toward +X"),
+      text_param("lights", &Settings::lights,
+                 "directional lights dir:x,y,z:r,g,b: where from (+Z to the viewer, +Y up), "
+                 "irradiance on a plane facing it [W/m^2]"),
       integer_param("seed", &Settings::seed, {0, 2147483647}, "of the sample sets"),
   };
 }
@@ -183,7 +160,8 @@ Needs PreviewBake::needs(const Settings& settings) {
           .light = true,
           .sampled = true,
           .prefiltered = settings.mode != Mode::Reference,
-          .albedo = true};
+          .albedo = true,
+          .own_lights = !settings.lights.empty()};
 }
 
 void PreviewBake::check(const Settings& settings, const SurfaceChoice& surface) {
@@ -192,29 +170,33 @@ void PreviewBake::check(const Settings& settings, const SurfaceChoice& surface) 
                                           "mode {}",
                                           mode_words[static_cast<size_t>(settings.mode)]));
   }
+  const auto lights = parse_lights(settings.lights);
+  if (surface.bsdf == "glass" && !lights.empty()) {
+    throw Error(Fault::Usage,
+                "lights: no path through glass ends in a directional light; expected an env alone");
+  }
 }
 
 Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients) {
-  const Picture picture = make_picture(settings, *ingredients.material);
-  const ShadingInputs inputs{ingredients.light, ingredients.albedo, ingredients.surface};
+  const ShadingInputs inputs{ingredients.light, ingredients.albedo, ingredients.surface,
+                             parse_lights(settings.lights)};
   check_surface(inputs.surface);
   check(settings, inputs.surface);
+  if (!inputs.light && inputs.lights.empty()) {
+    throw Error(Fault::Usage, "nothing to light it with: expected an environment, lights or both");
+  }
   Baked baked;
   add_model_notes(settings, inputs, baked);
-  Layers image;
-  if (settings.mode != Mode::Reference) image = approximate_picture(picture, inputs);
-  if (settings.mode != Mode::SplitSum) {
-    Rendered reference = render_reference(picture, inputs, settings);
-    add_figures(settings, inputs, reference, baked);
-    if (settings.mode == Mode::Reference) {
-      image = std::move(reference.image);
-    } else {
-      subtract(image, reference.image);
-    }
+  Artifact& made = baked.artifacts.emplace_back();
+  made.attributes = describe_file(settings, inputs);
+  Rendered whole;
+  if (settings.shape == Shape::Contact) {
+    bake_contact(settings, *ingredients.material, inputs, made, whole);
+  } else {
+    bake_picture(settings, *ingredients.material, inputs, baked, whole);
   }
-  Artifact& picture_made = baked.artifacts.emplace_back();
-  picture_made.image = std::move(image);
-  picture_made.attributes = describe_file(settings, inputs);
+  made.image = std::move(whole.image);
+  if (settings.mode != Mode::SplitSum) add_figures(settings, inputs, whole, baked);
   return baked;
 }
 

@@ -5,9 +5,8 @@
 #include "kiln/brdf/rough_dielectric.h"
 #include "kiln/brdf/roughness.h"
 #include "kiln/integrate/sobol.h"
-#include "kiln/parallel/rows.h"
 #include "light_product.h"
-#include "preview_pixels.h"
+#include "preview_blocks.h"
 
 namespace kiln {
 namespace {
@@ -15,7 +14,6 @@ namespace {
 using F = WideFloat;
 using Color = Vec3<F>;
 using Mask = MaskOf<F>;
-constexpr int lanes = lane_count<F>;
 
 // One path a lane. `position` is on the unit ball, in the environment's space.
 struct Paths {
@@ -142,40 +140,40 @@ void trace(const GlassBody& body, const Boundary& first, Paths paths,
   harvest_trapped(body, paths, harvest);
 }
 
-struct GlassEstimate {
-  Estimate radiance;
-  F carried, trapped;
-};
+struct GlassRenderer {
+  const GlassBody& body;
+  const SobolPoints& points;
+  int seed;
+  Plane &carried, &trapped;
 
-GlassEstimate estimate_texels(const GlassBody& body, const SobolPoints& points, int x, int y,
-                              int seed) {
-  const WideUint texels = texel_hashes(x, y, seed);
-  std::array<Harvest, repetitions> harvests;
-  const int positions = body.picture.positions();
-  const int share = static_cast<int>(points.size()) / positions;
-  for (int position = 0; position < positions; ++position) {
-    TexelBlock<F> block;
-    Placement<F> placement;
-    body.picture.fill<F>(x, y, position, block, placement);
-    const Boundary first = boundary_of(block, placement.frame);
-    const Paths start{placement.frame.z, -placement.to_viewer, F(1.0f), Mask(true), Mask(false)};
-    for (int r = 0; r < repetitions; ++r) {
-      const auto seeds = repetition_seeds<WideUint>(texels, static_cast<std::uint32_t>(r));
-      for (int i = position * share; i < (position + 1) * share; ++i) {
-        trace(body, first, start, points[static_cast<size_t>(i)], seeds, i, harvests[r]);
+  void add(int x, int y, const PointRange& range, PixelSums& sums) const {
+    const WideUint texels = texel_hashes(x, y, seed);
+    const int share = (range.last - range.first) / body.picture.positions();
+    for (int position = 0; position < body.picture.positions(); ++position) {
+      TexelBlock<F> block;
+      Placement<F> placement;
+      body.picture.fill<F>(x, y, position, block, placement);
+      const Boundary first = boundary_of(block, placement.frame);
+      const Paths start{placement.frame.z, -placement.to_viewer, F(1.0f), Mask(true), Mask(false)};
+      const int begin = range.first + position * share;
+      for (std::uint32_t r = 0; r < repetitions; ++r) {
+        const auto seeds = repetition_seeds<WideUint>(texels, r);
+        Harvest harvest;
+        for (int i = begin; i < begin + share; ++i) {
+          trace(body, first, start, points[static_cast<size_t>(i)], seeds, i, harvest);
+        }
+        sums.light[r] += harvest.radiance;
+        sums.carried += harvest.carried;
+        sums.trapped += harvest.trapped;
       }
     }
   }
-  const F scale(1.0f / static_cast<float>(points.size()));
-  std::array<Color, repetitions> means;
-  F carried(0.0f), trapped(0.0f);
-  for (int r = 0; r < repetitions; ++r) {
-    means[r] = harvests[r].radiance * scale;
-    carried += harvests[r].carried * scale * F(1.0f / repetitions);
-    trapped += harvests[r].trapped * scale * F(1.0f / repetitions);
+  void finish(int x, int y, const PixelSums& sums, int count) const {
+    const F scale(1.0f / static_cast<float>(repetitions * count));
+    store_lanes(carried.row(y) + x, sums.carried * scale);
+    store_lanes(trapped.row(y) + x, sums.trapped * scale);
   }
-  return {summarise(means), carried, trapped};
-}
+};
 
 // Mean over the pixels that show the body.
 double mean_shown(const Plane& values, const Plane& alpha) {
@@ -192,28 +190,21 @@ double mean_shown(const Plane& values, const Plane& alpha) {
 
 }  // namespace
 
-GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs, int samples,
-                            int seed) {
-  GlassPicture made{
-      make_layers(picture.size(), {"R", "G", "B", "A", "stderr.R", "stderr.G", "stderr.B"})};
+GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,
+                            const SamplePlan& plan) {
+  GlassPicture made{make_sampled_image(picture)};
   Layers& image = made.image;
-  fill_coverage(picture, image);
   Plane carried(picture.size(), 0), trapped(picture.size(), 0);
   const GlassAlbedos albedos(inputs.surface.ior);
-  const SobolPoints points = sobol_points_reversed(samples / repetitions);
+  const Sampling sampling{plan.samples / repetitions, plan.most / repetitions, plan.target_error,
+                          plan.seed};
+  const SobolPoints points =
+      sobol_points_reversed(plan.target_error > 0 ? sampling.most : sampling.points);
   const GlassBody body{picture, *inputs.light->environment,
                        F(static_cast<float>(inputs.surface.ior)),
                        inputs.surface.energy == "none" ? nullptr : &albedos};
-  for_rows(picture.size().height, [&](int y) {
-    for (int x = 0; x < picture.size().width; x += lanes) {
-      if (!covers_any(image, x, y)) continue;
-      const GlassEstimate e = estimate_texels(body, points, x, y, seed);
-      store_color(image, 0, x, y, e.radiance.mean);
-      store_color(image, 4, x, y, e.radiance.error);
-      store_lanes(carried.row(y) + x, e.carried);
-      store_lanes(trapped.row(y) + x, e.trapped);
-    }
-  });
+  sample_blocks(GlassRenderer{body, points, plan.seed, carried, trapped}, sampling, image);
+  scale_plane(image.layers[points_plane].plane, repetitions);
   clear_background(image);
   made.lost = 1 - mean_shown(carried, image.layers[3].plane);
   made.trapped = mean_shown(trapped, image.layers[3].plane);

@@ -51,6 +51,13 @@ bool covers_any(const Layers& image, int x, int y) {
   return std::any_of(alpha, alpha + lanes, [](float a) { return a > 0; });
 }
 
+void scale_plane(Plane& plane, float scale) {
+  for (int y = 0; y < plane.height(); ++y) {
+    float* row = plane.row(y);
+    for (int x = 0; x < plane.width(); ++x) row[x] *= scale;
+  }
+}
+
 void clear_background(Layers& image) {
   const Plane& alpha = image.layers[3].plane;
   for (size_t l = 0; l < image.layers.size(); ++l) {

@@ -44,6 +44,9 @@ void fill_coverage(const Picture& picture, Layers& image);
 /// Whether any pixel of the vector at x shows the surface.
 bool covers_any(const Layers& image, int x, int y);
 
+/// Every number of a plane times `scale`.
+void scale_plane(Plane& plane, float scale);
+
 /// Off the ball there is no colour either.
 void clear_background(Layers& image);
 

@@ -7,7 +7,7 @@
 #include "kiln/core/names.h"
 #include "kiln/parallel/rows.h"
 #include "light_product.h"
-#include "preview_pixels.h"
+#include "preview_blocks.h"
 #include "preview_staged.h"
 
 namespace kiln {
@@ -16,12 +16,30 @@ namespace {
 using F = WideFloat;
 constexpr int lanes = lane_count<F>;
 
+// A directional light for whole vectors, in the environment's space.
+struct DistantLight {
+  Vec3<F> toward, irradiance;
+};
+using DistantLights = std::vector<DistantLight>;
+
+Vec3<F> widened(const Vec3<double>& v) {
+  return {F(static_cast<float>(v.x)), F(static_cast<float>(v.y)), F(static_cast<float>(v.z))};
+}
+
+DistantLights distant_lights(const Picture& picture, const ShadingInputs& inputs) {
+  DistantLights lights;
+  for (const DirectionalLight& light : inputs.lights) {
+    lights.push_back({widened(picture.to_environment(light.toward)), widened(light.irradiance)});
+  }
+  return lights;
+}
+
 // A shader makes a point of what a picture shows, and sums or approximates its light. Which one is
 // decided once per picture, never per texel.
 
 template <class Diffuse>
 struct FusedShader {
-  const Light& light;
+  const Light* light;
   const AlbedoTable& albedo;
   Energy energy;
 
@@ -32,7 +50,10 @@ struct FusedShader {
   }
   Vec3<F> sum(const Point& point, const SobolPoints& points, int first, int last,
               const std::array<WideUint, 4>& seeds) const {
-    return sum_points(point, *light.environment, albedo, points, first, last, seeds);
+    return sum_points(point, *light->environment, albedo, points, first, last, seeds);
+  }
+  Vec3<F> reflected(const Point& point, const DistantLight& distant) const {
+    return reflect_distant(point, albedo, distant.toward, distant.irradiance);
   }
   Vec3<F> approximation(const Point& point) const {
     const Vec3<F> normal = point.frame.z;
@@ -40,13 +61,13 @@ struct FusedShader {
     const Vec3<F> specular = point.surface.specular_reflectance(point.terms_o);
     const F left = clamp(F(1) - point.surface.greatest.reflectance(point.terms_o), F(0), F(1));
     const Vec3<F> diffuse = point.surface.diffuse.albedo(point.wo.z) * left * point.occlusion;
-    return light.chain->lookup(point.frame.to_world(mirrored), point.roughness) * specular +
-           light.irradiance->lookup(normal) * diffuse;
+    return light->chain->lookup(point.frame.to_world(mirrored), point.roughness) * specular +
+           light->irradiance->lookup(normal) * diffuse;
   }
 };
 
 struct StagedShader {
-  const Light& light;
+  const Light* light;
   const AlbedoTable& albedo;
   SurfaceStages stages;
 
@@ -55,10 +76,13 @@ struct StagedShader {
   }
   Vec3<F> sum(const StagedPoint& point, const SobolPoints& points, int first, int last,
               const std::array<WideUint, 4>& seeds) const {
-    return sum_points(point, stages, *light.environment, albedo, points, first, last, seeds);
+    return sum_points(point, stages, *light->environment, albedo, points, first, last, seeds);
+  }
+  Vec3<F> reflected(const StagedPoint& point, const DistantLight& distant) const {
+    return reflect_distant(point, stages, albedo, distant.toward, distant.irradiance);
   }
   Vec3<F> approximation(const StagedPoint& point) const {
-    return approximate(point, stages, light);
+    return approximate(point, stages, *light);
   }
 };
 
@@ -67,14 +91,14 @@ template <class Visit>
 void with_shader(const ShadingInputs& inputs, Visit&& visit) {
   const SurfaceChoice& surface = inputs.surface;
   if (!has_fused_loop(surface)) {
-    return visit(StagedShader{*inputs.light, *inputs.albedo, make_stages(surface)});
+    return visit(StagedShader{inputs.light, *inputs.albedo, make_stages(surface)});
   }
   const Energy energy = surface.energy == "none" ? Energy::Single : Energy::Multiscatter;
   bool known = false;
   Diffuses::for_each([&]<template <class> class Model>() {
     if (surface.diffuse != Model<float>::name) return;
     known = true;
-    visit(FusedShader<Model<F>>{*inputs.light, *inputs.albedo, energy});
+    visit(FusedShader<Model<F>>{inputs.light, *inputs.albedo, energy});
   });
   if (!known) {
     throw Error(Fault::Usage, unknown_name("diffuse", surface.diffuse, model_names("diffuse")));
@@ -89,25 +113,53 @@ auto point_at(const Picture& picture, const Shader& shader, int x, int y, int po
   return shader.point(values_of<F>(block), placement);
 }
 
+// What directional lights bring, without noise.
+template <class Shader>
+Vec3<F> sum_lights(const Picture& picture, const Shader& shader, const DistantLights& lights, int x,
+                   int y) {
+  Vec3<F> sum{F(0), F(0), F(0)};
+  if (lights.empty()) return sum;
+  for (int position = 0; position < picture.positions(); ++position) {
+    const auto point = point_at(picture, shader, x, y, position);
+    for (const DistantLight& light : lights) sum += shader.reflected(point, light);
+  }
+  return sum * F(1.0f / static_cast<float>(picture.positions()));
+}
+
+void add_color(Layers& image, int x, int y, const Vec3<F>& color) {
+  const auto plane = [&](size_t c) { return image.layers[c].plane.row(y) + x; };
+  const Vec3<F> there{load_lanes<F>(plane(0)), load_lanes<F>(plane(1)), load_lanes<F>(plane(2))};
+  store_color(image, 0, x, y, there + color);
+}
+
 // All positions inside the pixel share each repetition's point set, a piece of it each, so that
 // standard errors hold the noise of the light alone.
 template <class Shader>
-Estimate estimate_texels(const Picture& picture, const Shader& shader, const SobolPoints& points,
-                         int x, int y, int seed) {
-  const WideUint texels = texel_hashes(x, y, seed);
-  std::array<Vec3<F>, repetitions> sums;
-  sums.fill({F(0), F(0), F(0)});
-  const int share = static_cast<int>(points.size()) / picture.positions();
-  for (int position = 0; position < picture.positions(); ++position) {
-    const auto point = point_at(picture, shader, x, y, position);
-    for (int r = 0; r < repetitions; ++r) {
-      sums[r] += shader.sum(point, points, position * share, (position + 1) * share,
-                            repetition_seeds<WideUint>(texels, r));
+struct ReferenceRenderer {
+  const Picture& picture;
+  const Shader& shader;
+  const SobolPoints& points;
+  const DistantLights& lights;
+  int seed;
+  Layers& image;
+
+  void add(int x, int y, const PointRange& range, PixelSums& sums) const {
+    if (range.last == range.first) return;
+    const WideUint texels = texel_hashes(x, y, seed);
+    const int share = (range.last - range.first) / picture.positions();
+    for (int position = 0; position < picture.positions(); ++position) {
+      const auto point = point_at(picture, shader, x, y, position);
+      const int first = range.first + position * share;
+      for (std::uint32_t r = 0; r < repetitions; ++r) {
+        sums.light[r] +=
+            shader.sum(point, points, first, first + share, repetition_seeds<WideUint>(texels, r));
+      }
     }
   }
-  for (Vec3<F>& sum : sums) sum = sum * F(1.0f / static_cast<float>(points.size()));
-  return summarise(sums);
-}
+  void finish(int x, int y, const PixelSums&, int) const {
+    if (!lights.empty()) add_color(image, x, y, sum_lights(picture, shader, lights, x, y));
+  }
+};
 
 template <class Shader>
 Vec3<F> approximate_texels(const Picture& picture, const Shader& shader, int x, int y) {
@@ -131,22 +183,22 @@ bool has_fused_loop(const SurfaceChoice& surface) {
          (surface.energy == "kulla-conty" || surface.energy == "none");
 }
 
-Layers estimate_picture(const Picture& picture, const ShadingInputs& inputs, int samples,
-                        int seed) {
-  Layers image =
-      make_layers(picture.size(), {"R", "G", "B", "A", "stderr.R", "stderr.G", "stderr.B"});
-  fill_coverage(picture, image);
-  const SobolPoints points = sobol_points_reversed(samples / (2 * repetitions));
+Layers estimate_picture(const Picture& picture, const ShadingInputs& inputs,
+                        const SamplePlan& plan) {
+  constexpr int directions = 2 * repetitions;  // of a point of every repetition
+  Layers image = make_sampled_image(picture);
+  const bool sampled = inputs.light != nullptr;
+  const Sampling sampling{sampled ? plan.samples / directions : 0, plan.most / directions,
+                          sampled ? plan.target_error : 0, plan.seed};
+  const SobolPoints points = sobol_points_reversed(
+      plan.target_error > 0 ? std::max(sampling.most, sampling.points) : sampling.points);
+  const DistantLights lights = distant_lights(picture, inputs);
   with_shader(inputs, [&](const auto& shader) {
-    for_rows(picture.size().height, [&](int y) {
-      for (int x = 0; x < picture.size().width; x += lanes) {
-        if (!covers_any(image, x, y)) continue;
-        const Estimate e = estimate_texels(picture, shader, points, x, y, seed);
-        store_color(image, 0, x, y, e.mean);
-        store_color(image, 4, x, y, e.error);
-      }
-    });
+    const ReferenceRenderer<std::decay_t<decltype(shader)>> renderer{picture, shader,    points,
+                                                                     lights,  plan.seed, image};
+    sample_blocks(renderer, sampling, image);
   });
+  scale_plane(image.layers[points_plane].plane, directions);
   clear_background(image);
   return image;
 }
@@ -154,11 +206,13 @@ Layers estimate_picture(const Picture& picture, const ShadingInputs& inputs, int
 Layers approximate_picture(const Picture& picture, const ShadingInputs& inputs) {
   Layers image = make_layers(picture.size(), {"R", "G", "B", "A"});
   fill_coverage(picture, image);
+  const DistantLights lights = distant_lights(picture, inputs);
   with_shader(inputs, [&](const auto& shader) {
     for_rows(picture.size().height, [&](int y) {
       for (int x = 0; x < picture.size().width; x += lanes) {
         if (!covers_any(image, x, y)) continue;
-        store_color(image, 0, x, y, approximate_texels(picture, shader, x, y));
+        if (inputs.light) store_color(image, 0, x, y, approximate_texels(picture, shader, x, y));
+        add_color(image, x, y, sum_lights(picture, shader, lights, x, y));
       }
     });
   });

@@ -121,6 +121,15 @@ WideVec sum_points(const StagedPoint& point, const SurfaceStages& stages,
   return sum;
 }
 
+WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
+                        const AlbedoTable& table, const WideVec& toward,
+                        const WideVec& irradiance) {
+  DirectionBlock block;
+  append(block, point.frame.to_local(toward), irradiance, F(0.0f));
+  run_stages(point, stages, table, block);
+  return (block.specular[0] + block.diffuse[0]) * block.light[0] * block.wi[0].z;
+}
+
 WideVec approximate(const StagedPoint& point, const SurfaceStages& stages, const Light& light) {
   const WideVec mirrored{-point.wo.x, -point.wo.y, point.wo.z};
   const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));

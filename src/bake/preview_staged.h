@@ -18,6 +18,10 @@ WideVec sum_points(const StagedPoint& point, const SurfaceStages& stages,
                    const SobolPoints& points, int first, int last,
                    const std::array<WideUint, 4>& seeds);
 
+/// As estimate.h's: f E cos of a light far away.
+WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
+                        const AlbedoTable& table, const WideVec& toward, const WideVec& irradiance);
+
 /// Prefiltered radiance times split-sum terms, irradiance times albedo.
 WideVec approximate(const StagedPoint& point, const SurfaceStages& stages, const Light& light);
 

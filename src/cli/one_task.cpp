@@ -81,11 +81,13 @@ void print_notes(const Report& report) {
 
 // A file's folder is the output folder; a folder is its own.
 fs::path name_output(BakeChoice& bake, const std::string& output) {
-  if (facts_of_bake(bake.bake).product == Product::Folder) {
+  const Product product = facts_of_bake(bake.bake).product;
+  const fs::path path(output);
+  const bool names_files = output.find("{suffix}") != std::string::npos || path.has_extension();
+  if (product == Product::Folder || (product == Product::Maps && !names_files)) {
     bake.out = ".";
     return output;
   }
-  const fs::path path(output);
   bake.out = path.filename().string();
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
@@ -135,7 +137,8 @@ int run_one_task(Pipeline pipeline, const std::string& output, const Globals& gl
   const Interruption interruption;
   pipeline.color.config = chosen_config(globals.ocio, pipeline.color.config);
   const fs::path folder = name_output(pipeline.bakes.at(0), output);
-  const Plan plan = make_plan(pipeline, folder);
+  Plan plan = make_plan(pipeline, folder);
+  plan.max_memory = globals.max_memory;
   Watcher watcher = console_watcher(ProgressStyle::None, globals);
   watcher.loaded = {};
   watcher.lit = {};

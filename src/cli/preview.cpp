@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <memory>
+#include <utility>
 
 #include "environment_options.h"
 #include "help.h"
@@ -15,6 +19,7 @@ struct PreviewArguments {
   std::string output;
   MaterialOptions material;
   EnvironmentOptions environment;
+  std::vector<std::string> lights;
   std::unique_ptr<BakeOptions> options;
 };
 
@@ -22,12 +27,20 @@ int run(const PreviewArguments& arguments, const Globals& globals) {
   if (arguments.material.path.empty()) {
     throw Error(Fault::Usage, "expected a MATERIAL: a folder of maps or a material file");
   }
-  if (arguments.environment.path.empty()) {
-    throw Error(Fault::Usage, "no environment is given: --env IMAGE");
+  if (arguments.environment.path.empty() && arguments.lights.empty()) {
+    throw Error(Fault::Usage,
+                "no environment is given: --env IMAGE, or lights: --light dir:x,y,z:r,g,b");
   }
   Pipeline pipeline;
-  pipeline.environments.push_back(arguments.environment.choice());
-  pipeline.bakes.push_back(arguments.options->choice({{"env", "env"}}));
+  std::vector<std::pair<std::string, std::string>> keys;
+  if (!arguments.environment.path.empty()) {
+    pipeline.environments.push_back(arguments.environment.choice());
+    keys.emplace_back("env", "env");
+  }
+  if (!arguments.lights.empty()) {
+    keys.emplace_back("lights", fmt::format("{}", fmt::join(arguments.lights, ";")));
+  }
+  pipeline.bakes.push_back(arguments.options->choice(std::move(keys)));
   arguments.material.add_to(pipeline);
   require_one_set(pipeline);
   return run_one_task(std::move(pipeline), arguments.output, globals);
@@ -42,7 +55,12 @@ Action declare(CLI::App& app) {
       ->type_name("IMAGE");
   app.add_option("-o,--output", arguments->output, "file to make: .exr .png .jpg .hdr .tif")
       ->type_name("FILE");
-  arguments->options = std::make_unique<BakeOptions>(app, "preview", std::vector<std::string>{});
+  app.add_option("--light", arguments->lights,
+                 "dir:x,y,z:r,g,b: one from there, irradiance [W/m^2]; any number")
+      ->type_name("LIGHT")
+      ->allow_extra_args(false);
+  arguments->options =
+      std::make_unique<BakeOptions>(app, "preview", std::vector<std::string>{"lights"});
   arguments->material.declare(app);
   arguments->material.declare_models(app);
   arguments->environment.declare(app, {"rotate"}, of_the_environment);

@@ -13,7 +13,8 @@ struct Globals {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;  ///< 0: as many as the process may use
+  int threads = 0;           ///< 0: as many as the process may use
+  long long max_memory = 0;  ///< [byte] that the process may take; 0: no limit
   std::string ocio;
   std::string color = "auto";
 };
@@ -27,6 +28,8 @@ struct Verb {
   std::string summary;
   /// Declares the verb's arguments and returns what to do with them.
   std::function<Action(CLI::App&)> declare;
+  /// Of a verb whose first argument decides the others: the verb that it amounts to.
+  std::function<Verb(const std::string& word)> narrowed = {};
 };
 
 Verb run_verb();
@@ -34,6 +37,7 @@ Verb lut_verb();
 Verb verify_verb();
 Verb env_verb();
 Verb preview_verb();
+Verb bake_verb();
 Verb inspect_verb();
 Verb diff_verb();
 Verb list_verb();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "byte_text.h"
+#include "level_encoder.h"
 #include "stored_planes.h"
 #include "table_files.h"
 #include "texel_pack.h"
@@ -124,7 +125,73 @@ void write_ktx1(const Texture& texture, const TextureWriteOptions& options, Byte
   }
 }
 
+// A texture of one image whose levels have their places from the start.
+class PlacedLevels : public LevelEncoder {
+ public:
+  PlacedLevels(std::string_view format, const TextureToWrite& texture)
+      : type_(texture.options.type), out_(texture.out), facts_(texture.facts) {
+    contents_.slice = texture.sizes.front();
+    contents_.channels = stored_channels(texture.names.size(), type_);
+    contents_.levels = static_cast<int>(texture.sizes.size());
+    contents_.srgb = texture.options.color_tag == ColorTag::Srgb && type_ == PixelType::Uint8;
+    for (const Size size : texture.sizes) {
+      row_bytes_.push_back(static_cast<size_t>(size.width) *
+                           packed_texel_bytes(type_, contents_.channels));
+      const size_t bytes = row_bytes_.back() * static_cast<size_t>(size.height);
+      levels_.push_back({bytes, bytes});
+    }
+    if (format == "dds") {
+      place_dds();
+    } else {
+      place_ktx2(texture.options);
+    }
+  }
+
+  void add(int level, int first, const Layers& rows) override {
+    const auto l = static_cast<size_t>(level);
+    out_.seek(places_[l] + row_bytes_[l] * static_cast<size_t>(first));
+    out_.append(face_texels(rows, contents_, type_, facts_));
+  }
+
+  void finish() override {}
+
+ private:
+  void place_dds() {
+    const std::string header = dds_header(contents_, type_, levels_.front().texels);
+    size_t place = header.size();
+    for (const LevelBytes& level : levels_) {
+      places_.push_back(place);
+      place += level.stored;
+    }
+    out_.append(header);
+  }
+
+  void place_ktx2(const TextureWriteOptions& options) {
+    const std::string header = ktx2_header(contents_, type_, description_of(options), levels_);
+    const size_t step = ktx2_alignment(contents_, type_, Supercompression::None);
+    size_t place = header.size();
+    places_.resize(levels_.size());
+    for (size_t l = levels_.size(); l-- > 0;) {
+      places_[l] = (place + step - 1) / step * step;
+      place = places_[l] + levels_[l].stored;
+    }
+    out_.append(header);
+  }
+
+  Contents contents_;
+  PixelType type_;
+  ByteStream& out_;
+  WriteFacts& facts_;
+  std::vector<size_t> row_bytes_, places_;  ///< of each level
+  std::vector<LevelBytes> levels_;
+};
+
 }  // namespace
+
+std::unique_ptr<LevelEncoder> container_levels(std::string_view format,
+                                               const TextureToWrite& texture) {
+  return std::make_unique<PlacedLevels>(format, texture);
+}
 
 void write_container(std::string_view format, const Texture& texture,
                      const TextureWriteOptions& options, ByteStream& out, WriteFacts& facts) {

@@ -28,8 +28,8 @@ std::string dds_header(const Contents& contents, PixelType type, size_t texel_by
   append_words(bytes, {texture | (volume || cube ? complex : 0) | (mips ? mips_caps : 0),
                        (volume ? volume_caps : 0) | (cube ? cube_caps : 0), 0, 0, 0});
   constexpr uint32_t texture_2d = 3, texture_3d = 4, cube_flag = 4;
-  append_words(bytes, {dxgi_number(type, contents.channels), volume ? texture_3d : texture_2d,
-                       cube ? cube_flag : 0, 1, 0});
+  append_words(bytes, {dxgi_number(type, contents.channels, contents.srgb),
+                       volume ? texture_3d : texture_2d, cube ? cube_flag : 0, 1, 0});
   return bytes;
 }
 

@@ -62,13 +62,15 @@ Coding coding_of(PixelType type) {
   return Float;
 }
 
-uint32_t number_of(std::span<const Numbered> list, PixelType type, int channels) {
+uint32_t number_of(std::span<const Numbered> list, PixelType type, int channels, bool srgb) {
   constexpr std::string_view names[] = {"Y", "RG", "RGB", "RGBA"};
   const std::string_view wanted = names[std::clamp(channels, 1, 4) - 1];
   const auto at = std::find_if(list.begin(), list.end(), [&](const Numbered& one) {
-    return one.texel.coding == coding_of(type) && one.texel.channels == wanted && !one.texel.srgb;
+    return one.texel.coding == coding_of(type) && one.texel.channels == wanted &&
+           one.texel.srgb == srgb;
   });
-  return at == list.end() ? 0 : at->number;
+  if (at == list.end()) return srgb ? number_of(list, type, channels, false) : 0;
+  return at->number;
 }
 
 std::optional<TexelFormat> texel_of(std::span<const Numbered> list, uint32_t number) {
@@ -80,9 +82,13 @@ std::optional<TexelFormat> texel_of(std::span<const Numbered> list, uint32_t num
 
 }  // namespace
 
-uint32_t dxgi_number(PixelType type, int channels) { return number_of(dxgi, type, channels); }
+uint32_t dxgi_number(PixelType type, int channels, bool srgb) {
+  return number_of(dxgi, type, channels, srgb);
+}
 std::optional<TexelFormat> dxgi_texel(uint32_t number) { return texel_of(dxgi, number); }
-uint32_t vulkan_number(PixelType type, int channels) { return number_of(vulkan, type, channels); }
+uint32_t vulkan_number(PixelType type, int channels, bool srgb) {
+  return number_of(vulkan, type, channels, srgb);
+}
 std::optional<TexelFormat> vulkan_texel(uint32_t number) { return texel_of(vulkan, number); }
 
 }  // namespace kiln::io

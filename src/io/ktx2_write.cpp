@@ -26,7 +26,7 @@ struct Sample {
 };
 
 constexpr uint32_t alpha_channel = 15;
-constexpr uint32_t is_float = 0x80, is_signed = 0x40, is_exponent = 0x20;
+constexpr uint32_t is_float = 0x80, is_signed = 0x40, is_exponent = 0x20, is_linear = 0x10;
 constexpr uint32_t float_one = 0x3f800000, float_minus_one = 0xbf800000;
 
 Sample integer(uint32_t bit, uint32_t bits, uint32_t channel) {
@@ -68,16 +68,19 @@ std::vector<Sample> samples_of(PixelType type, int channels) {
   return samples;
 }
 
-// One basic block: linear RGB, its primaries only where they are known. Floats span [-1, 1] or
-// [0, 1], integers [0, max].
+// One basic block: RGB, its primaries only where they are known. Floats span [-1, 1] or [0, 1],
+// integers [0, max]. Alpha is linear beside sRGB too.
 std::string descriptor(PixelType type, int channels, ColorTag tag) {
-  const std::vector<Sample> samples = samples_of(type, channels);
+  std::vector<Sample> samples = samples_of(type, channels);
+  const bool srgb = tag == ColorTag::Srgb;
+  if (srgb && channels == 4) samples.back().kind |= is_linear;
   const auto block_bytes = static_cast<uint32_t>(24 + 16 * samples.size());
-  constexpr uint32_t version = 2, model_rgbsda = 1, transfer_linear = 1;
-  const uint32_t primaries = tag == ColorTag::Linear ? 1 : 0;  // of BT.709
+  constexpr uint32_t version = 2, model_rgbsda = 1;
+  const uint32_t transfer = srgb ? 2 : 1;
+  const uint32_t primaries = tag == ColorTag::None ? 0 : 1;  // of BT.709
   std::string bytes;
   append_words(bytes, {4 + block_bytes, 0, version | block_bytes << 16,
-                       model_rgbsda | primaries << 8 | transfer_linear << 16, 0,
+                       model_rgbsda | primaries << 8 | transfer << 16, 0,
                        static_cast<uint32_t>(packed_texel_bytes(type, channels)), 0});
   for (const Sample& sample : samples) {
     append_words(bytes, {sample.bit | (sample.bits - 1) << 16 | sample.kind << 24, 0, sample.lower,
@@ -115,7 +118,8 @@ size_t ktx2_alignment(const Contents& contents, PixelType type, Supercompression
 
 std::string ktx2_header(const Contents& contents, PixelType type,
                         const Ktx2Description& description, const std::vector<LevelBytes>& levels) {
-  const std::string format = descriptor(type, contents.channels, description.color_tag);
+  const ColorTag tag = contents.srgb ? ColorTag::Srgb : description.color_tag;
+  const std::string format = descriptor(type, contents.channels, tag);
   const std::string keys = ktx_keys({{"KTXorientation", contents.depth > 1 ? "rdi" : "rd"}},
                                     description.attributes, "KTXwriter");
   const size_t format_at = header_bytes + levels.size() * level_index_bytes;
@@ -124,8 +128,8 @@ std::string ktx2_header(const Contents& contents, PixelType type,
   const size_t texels_at = aligned(keys_at + keys.size(), step);
   constexpr uint32_t layers = 0, zstandard = 2;
   std::string bytes(identifier);
-  append_words(bytes, {vulkan_number(type, contents.channels), sample_type_bytes(type),
-                       static_cast<uint32_t>(contents.slice.width),
+  append_words(bytes, {vulkan_number(type, contents.channels, contents.srgb),
+                       sample_type_bytes(type), static_cast<uint32_t>(contents.slice.width),
                        static_cast<uint32_t>(contents.slice.height),
                        contents.depth > 1 ? static_cast<uint32_t>(contents.depth) : 0u});
   append_words(bytes,

@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "kiln/core/error.h"
+#include "kiln/image/mip_levels.h"
+#include "level_encoder.h"
 #include "openexr_header.h"
 #include "openexr_stream.h"
 #include "openexr_texture.h"
@@ -19,7 +22,7 @@
 namespace kiln::io {
 namespace {
 
-constexpr unsigned tile_edge = 64;
+constexpr int tile_edge = 64;
 
 [[noreturn]] void refuse(const std::string& reason) { throw Error(Fault::Usage, reason); }
 
@@ -48,66 +51,114 @@ void check_shape(const Texture& texture, Samples samples) {
   }
 }
 
-// Each texel the mean of the two by two that it covers.
-Plane halved(const Plane& plane) {
-  const Size size{std::max(1, plane.width() / 2), std::max(1, plane.height() / 2)};
-  Plane result(size);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const int right = std::min(2 * x + 1, plane.width() - 1);
-      const int below = std::min(2 * y + 1, plane.height() - 1);
-      result.at(x, y) = 0.25f * (plane.at(2 * x, 2 * y) + plane.at(right, 2 * y) +
-                                 plane.at(2 * x, below) + plane.at(right, below));
-    }
-  }
-  return result;
-}
-
-Layers halved(const Layers& image) {
-  Layers result;
-  for (const Layer& layer : image.layers)
-    result.layers.push_back({layer.name, halved(layer.plane)});
-  result.size = result.layers.front().plane.size();
-  return result;
-}
-
-Imf::Header header_of(const Layers& largest, const Texture& texture,
-                      const TextureWriteOptions& options) {
-  Imf::Header header(largest.size.width, largest.size.height);
+Imf::Header header_of(const TextureToWrite& texture) {
+  Imf::Header header(texture.sizes.front().width, texture.sizes.front().height);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.setTileDescription(
       Imf::TileDescription(tile_edge, tile_edge, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN));
-  std::vector<std::string> names;
-  for (const Layer& layer : largest.layers) names.push_back(layer.name);
-  add_channels(names, options.type, header);
-  if (options.samples == Samples::Nodes) {
-    Imf::addEnvmap(header, texture.is_cube() ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
-  }
-  header.insert(own_levels_name, Imf::IntAttribute(static_cast<int>(texture.levels.size())));
-  add_attributes(options.attributes, header);
+  add_channels(texture.names, texture.options.type, header);
+  header.insert(own_levels_name, Imf::IntAttribute(static_cast<int>(texture.sizes.size())));
+  add_attributes(texture.options.attributes, header);
   return header;
 }
 
-// Samples of one level as they are stored, and where the library finds them.
-void write_level(Imf::TiledOutputFile& file, const Layers& image, int level, PixelType type,
-                 WriteFacts& facts) {
-  const auto width = static_cast<size_t>(image.size.width);
-  const size_t row_bytes = width * sample_bytes(type);
-  const size_t plane_bytes = row_bytes * static_cast<size_t>(image.size.height);
-  std::vector<std::byte> samples(plane_bytes * image.layers.size());
-  Imf::FrameBuffer frame;
-  for (size_t c = 0; c < image.layers.size(); ++c) {
-    std::byte* at = samples.data() + c * plane_bytes;
-    for (int y = 0; y < image.size.height; ++y) {
-      store_samples(image.layers[c].plane.texels_of_row(y), type, 1,
-                    at + static_cast<size_t>(y) * row_bytes, facts);
-    }
-    frame.insert(image.layers[c].name, Imf::Slice(library_type(type), reinterpret_cast<char*>(at),
-                                                  sample_bytes(type), row_bytes));
+/// Rows of a level until they make tiles.
+struct Block {
+  int first = 0, rows = 0;
+  std::vector<std::byte> samples;  ///< [channels][tile_edge][width]
+};
+
+/// Tiles of all levels that the format demands, down to 1 x 1: what the texture lacks is averaged
+/// from its last level.
+class TileWriter : public LevelEncoder {
+ public:
+  TileWriter(const TextureToWrite& texture, const Imf::Header& header)
+      : names_(texture.names),
+        type_(texture.options.type),
+        own_levels_(texture.sizes.size()),
+        sizes_(level_sizes(texture.sizes.front())),
+        blocks_(sizes_.size()),
+        facts_(texture.facts),
+        rest_({sizes_.begin() + static_cast<std::ptrdiff_t>(own_levels_ - 1), sizes_.end()},
+              static_cast<int>(names_.size())),
+        stream_(texture.path.string(), texture.out) {
+    writing_openexr([&] { output_.emplace(stream_, header, 0); });
   }
-  file.setFrameBuffer(frame);
-  file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
-}
+
+  void add(int level, int first, const Layers& rows) override {
+    for (int y = 0; y < rows.size.height; ++y) {
+      add_row(level, facts_, [&](size_t c) { return rows.layers[c].plane.texels_of_row(y); });
+    }
+    if (static_cast<size_t>(level) + 1 == own_levels_) add_rest(first, rows);
+  }
+
+  // The library writes its table of offsets as the output ends.
+  void finish() override { output_.reset(); }
+
+ private:
+  size_t row_bytes(int level) const {
+    return static_cast<size_t>(sizes_[level].width) * sample_bytes(type_);
+  }
+
+  template <class Row>
+  void add_row(int level, WriteFacts& facts, Row row) {
+    Block& block = blocks_[level];
+    const size_t bytes = row_bytes(level);
+    block.samples.resize(names_.size() * tile_edge * bytes);
+    for (size_t c = 0; c < names_.size(); ++c) {
+      const size_t at = c * tile_edge + static_cast<size_t>(block.rows);
+      store_samples(row(c), type_, 1, block.samples.data() + at * bytes, facts);
+    }
+    ++block.rows;
+    const bool last = block.first + block.rows == sizes_[level].height;
+    if (block.rows == tile_edge || last) write(level, block);
+    if (last) block.samples = {};
+  }
+
+  void add_rest(int first, const Layers& rows) {
+    const auto made = rest_.add(rows.size.height, [&](int y, float* const* channels) {
+      for (size_t c = 0; c < names_.size(); ++c) {
+        const auto row = rows.layers[c].plane.texels_of_row(y - first);
+        std::copy(row.begin(), row.end(), channels[c]);
+      }
+    });
+    WriteFacts ignored;  // averages of what was counted already
+    for (const LevelRows& level : made) {
+      for (int y = 0; y < level.rows(); ++y) {
+        add_row(static_cast<int>(own_levels_) - 1 + level.level, ignored,
+                [&](size_t c) { return level.planes[c].texels_of_row(y); });
+      }
+    }
+  }
+
+  void write(int level, Block& block) {
+    Imf::FrameBuffer frame;
+    for (size_t c = 0; c < names_.size(); ++c) {
+      frame.insert(names_[c],
+                   Imf::Slice::Make(library_type(type_),
+                                    block.samples.data() + c * tile_edge * row_bytes(level),
+                                    Imath::V2i(0, block.first), sizes_[level].width, tile_edge,
+                                    sample_bytes(type_), row_bytes(level)));
+    }
+    writing_openexr([&] {
+      output_->setFrameBuffer(frame);
+      const int y = block.first / tile_edge;
+      output_->writeTiles(0, output_->numXTiles(level) - 1, y, y, level);
+    });
+    block.first += block.rows;
+    block.rows = 0;
+  }
+
+  std::vector<std::string> names_;
+  PixelType type_;
+  size_t own_levels_;
+  std::vector<Size> sizes_;
+  std::vector<Block> blocks_;  ///< of each level
+  WriteFacts& facts_;
+  MipCascade rest_;
+  ExrStream stream_;
+  std::optional<Imf::TiledOutputFile> output_;
+};
 
 Layers level_image(const std::vector<Layers>& level) {
   return level.size() == 6 ? stacked_faces(level) : level.front();
@@ -115,22 +166,32 @@ Layers level_image(const std::vector<Layers>& level) {
 
 }  // namespace
 
+std::unique_ptr<LevelEncoder> openexr_levels(const TextureToWrite& texture) {
+  Imf::Header header = header_of(texture);
+  header.lineOrder() = Imf::RANDOM_Y;  // tiles lie as they come
+  return std::make_unique<TileWriter>(texture, header);
+}
+
 void write_openexr_texture(const Texture& texture, const TextureWriteOptions& options,
                            ByteStream& out, WriteFacts& facts) {
   check_shape(texture, options.samples);
-  Layers image = level_image(texture.levels.front());
-  const Imf::Header header = header_of(image, texture, options);
-  ExrStream stream("texture", out);
-  writing_openexr([&] {
-    Imf::TiledOutputFile file(stream, header, 0);
-    for (int level = 0; level < file.numLevels(); ++level) {
-      const auto l = static_cast<size_t>(level);
-      const bool own = l < texture.levels.size();
-      if (level > 0) image = own ? level_image(texture.levels[l]) : halved(image);
-      WriteFacts ignored;  // averages of what was counted already
-      write_level(file, image, level, options.type, own ? facts : ignored);
-    }
-  });
+  std::vector<Size> sizes;
+  for (const std::vector<Layers>& level : texture.levels) {
+    const Size face = level.front().size;
+    sizes.push_back({face.width, face.height * static_cast<int>(level.size())});
+  }
+  std::vector<std::string> names;
+  for (const Layer& layer : texture.levels.front().front().layers) names.push_back(layer.name);
+  const TextureToWrite file{"texture", sizes, names, options, out, facts};
+  Imf::Header header = header_of(file);
+  if (options.samples == Samples::Nodes) {
+    Imf::addEnvmap(header, texture.is_cube() ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+  }
+  TileWriter writer(file, header);
+  for (size_t l = 0; l < texture.levels.size(); ++l) {
+    writer.add(static_cast<int>(l), 0, level_image(texture.levels[l]));
+  }
+  writer.finish();
 }
 
 }  // namespace kiln::io

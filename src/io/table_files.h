@@ -21,6 +21,7 @@ struct Contents {
   int channels = 1;
   int faces = 1;  ///< 6: a cube
   int levels = 1;
+  bool srgb = false;  ///< encoded, where the type has a format for it: Uint8
 };
 
 /// What stands before the texels in a DDS: a header of DirectX 10. Rows have no padding, each face

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::string_view description_tag = "ImageDescription";
 
-// Adobe, "TIFF 6.0", section 8.
+// Adobe, "TIFF 6.0", section 8; Pixar's tags of textures.
 bool has_tag(std::string_view name) {
-  constexpr std::array<std::string_view, 8> tags{"Software",     "Artist",  "Copyright",
-                                                 "DocumentName", "Make",    "Model",
-                                                 "HostComputer", "DateTime"};
+  constexpr std::array<std::string_view, 10> tags{
+      "Software", "Artist",       "Copyright", "DocumentName",  "Make",
+      "Model",    "HostComputer", "DateTime",  "textureformat", "wrapmodes"};
   return name.starts_with("oiio:") || std::find(tags.begin(), tags.end(), name) != tags.end();
 }
 

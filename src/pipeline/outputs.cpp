@@ -20,16 +20,9 @@ bool is_for_viewing(std::string_view format) { return format == "png" || format 
 
 bool holds_alpha(std::string_view format) { return format != "jpeg" && format != "hdr"; }
 
-bool is_image_name(const fs::path& path) {
-  const std::string extension = kebab(path.extension().string());
-  return std::any_of(writable_formats().begin(), writable_formats().end(), [&](const auto& format) {
-    return std::count(format.extensions.begin(), format.extensions.end(), extension) > 0;
-  });
-}
-
 void check_type(Product product, std::optional<PixelType> type, const fs::path& path) {
   const WritableFormat& format = writable_format(path);
-  if (product == Product::Numbers && format.name == "jpeg") {
+  if ((product == Product::Numbers || product == Product::Maps) && format.name == "jpeg") {
     throw Error(Fault::Usage,
                 "jpg loses numbers; expected exr, png, hdr, tif, dds, ktx2, npy, csv or h");
   }
@@ -65,12 +58,16 @@ Layers over_black(const Layers& image) {
 
 // A picture as its format holds it: viewing formats through the display, errors only where channels
 // have names.
-Layers picture_for(const Plan& plan, const Task& task, const Layers& image, std::string_view format,
-                   const ColorConfig& config) {
-  if (format == "openexr") return image;
-  Layers colors = colors_only(image);
+Layers picture_for(const Plan& plan, const Task& task, const Artifact& artifact,
+                   std::string_view format, const ColorConfig& config) {
+  if (format == "openexr") return artifact.image;
+  if (artifact.view && format == "hdr") {
+    throw Error(Fault::Usage, "hdr holds no negative numbers; expected exr, tif, png or jpg");
+  }
+  const bool viewed = artifact.view && is_for_viewing(format);
+  Layers colors = colors_only(viewed ? *artifact.view : artifact.image);
   if (!holds_alpha(format)) colors = over_black(colors);
-  if (!is_for_viewing(format)) return colors;
+  if (viewed || !is_for_viewing(format)) return colors;
   return config.to_display(colors, plan.color.working, task.output.display);
 }
 
@@ -131,7 +128,7 @@ WriteFacts write_product(const Plan& plan, const Task& task, const Artifact& art
   if (area(artifact.bands.size) > 0) return write_bands(path, artifact.bands, options);
   if (task.product != Product::Picture) return write_image(path, artifact.image, options);
   const std::string_view format = writable_format(path).name;
-  return write_image(path, picture_for(plan, task, artifact.image, format, config), options);
+  return write_image(path, picture_for(plan, task, artifact, format, config), options);
 }
 
 std::string write_image_of(const Plan& plan, const Task& task, const Artifact& artifact,
@@ -210,6 +207,13 @@ std::string output_name(const Task& task, const Artifact& artifact) {
 
 }  // namespace
 
+bool names_an_image(const fs::path& path) {
+  const std::string extension = kebab(path.extension().string());
+  return std::any_of(writable_formats().begin(), writable_formats().end(), [&](const auto& format) {
+    return std::count(format.extensions.begin(), format.extensions.end(), extension) > 0;
+  });
+}
+
 void check_output(const Task& task) {
   const fs::path out(task.out);
   if (task.out.empty()) throw Error(Fault::Usage, "out: found nothing, expected a file or folder");
@@ -221,11 +225,15 @@ void check_output(const Task& task) {
   }
   const std::string extension = out.extension().string();
   if (task.product == Product::Folder) {
-    if (is_image_name(out)) {
+    if (names_an_image(out)) {
       throw Error(Fault::Usage, fmt::format("out: found '{}', expected a folder: {} makes several "
                                             "files",
                                             task.out, task.bake));
     }
+    return;
+  }
+  if (task.product == Product::Maps) {
+    if (names_an_image(out)) check_type(task.product, task.output.type, out);
     return;
   }
   if (!out.has_filename() || extension.empty()) {

@@ -11,6 +11,9 @@ namespace kiln {
 /// @error Fault::Usage
 void check_output(const Task& task);
 
+/// Whether the extension is that of an image.
+bool names_an_image(const std::filesystem::path& path);
+
 /// Whether one name is the other, or a folder that holds it.
 bool collide(const std::string& a, const std::string& b);
 

@@ -215,6 +215,12 @@ Pipeline read_root(const Node& root, const Reading& reading) {
   Pipeline pipeline;
   pipeline.name = text_at(root, "name");
   with(root, "color", [&](const Node& node) { pipeline.color = read_color(node, reading); });
+  with(root, "limits", [&](const Node& node) {
+    const std::string memory = text_at(node, "memory");
+    if (memory.empty()) return;
+    attempt(reading.mistakes, node.place,
+            [&] { pipeline.max_memory = parse_bytes("memory", memory); });
+  });
   with(root, "environment", [&](const Node& node) {
     for (const Entry& entry : node.entries) {
       pipeline.environments.push_back(read_environment(entry, reading));

@@ -23,15 +23,6 @@ struct Prepared {
   Task task;
 };
 
-std::optional<size_t> environment_index(const Pipeline& pipeline, const BakeChoice& choice) {
-  std::vector<std::string> known;
-  for (const EnvironmentChoice& environment : pipeline.environments) {
-    if (environment.name == choice.env) return known.size();
-    known.push_back(environment.name);
-  }
-  throw Error(Fault::Usage, unknown_name("environment", choice.env, known));
-}
-
 const BakeFacts& facts_named(const std::string& bake) {
   std::vector<std::string> known;
   for (const BakeFacts& facts : all_bakes()) {
@@ -39,6 +30,20 @@ const BakeFacts& facts_named(const std::string& bake) {
     known.push_back(facts.name);
   }
   throw Error(Fault::Usage, unknown_name("bake", bake, known));
+}
+
+std::optional<size_t> environment_index(const Pipeline& pipeline, const BakeChoice& choice) {
+  if (choice.env.empty()) {
+    throw Error(Fault::Usage, facts_named(choice.bake).own_lights
+                                  ? "nothing to light it with: expected 'env', 'lights' or both"
+                                  : "expected 'env'");
+  }
+  std::vector<std::string> known;
+  for (const EnvironmentChoice& environment : pipeline.environments) {
+    if (environment.name == choice.env) return known.size();
+    known.push_back(environment.name);
+  }
+  throw Error(Fault::Usage, unknown_name("environment", choice.env, known));
 }
 
 Prepared prepare(const Pipeline& pipeline, const BakeChoice& choice, Mistakes& mistakes) {
@@ -56,6 +61,9 @@ Prepared prepare(const Pipeline& pipeline, const BakeChoice& choice, Mistakes& m
   task.product = facts.product;
   task.output = choice.output;
   task.out = choice.out;
+  if (choice.env.empty() && task.needs.own_lights) {
+    task.needs.light = task.needs.sampled = task.needs.prefiltered = false;
+  }
   if (task.needs.light) {
     const Place& place = choice.env.empty() ? choice.place : choice.env_place;
     attempt(mistakes, place, [&] { task.environment = environment_index(pipeline, choice); });
@@ -85,7 +93,8 @@ std::string with_set(const std::string& out, const PlannedSet& set) {
 // One name for one file: "a/./b" and "a/b/" are "a/b".
 std::string clean_name(const std::string& out, Product product) {
   std::string name = fs::path(out).lexically_normal().generic_string();
-  if (product == Product::Folder && name.size() > 1 && name.back() == '/') name.pop_back();
+  const bool folder = product == Product::Folder || product == Product::Maps;
+  if (folder && name.size() > 1 && name.back() == '/') name.pop_back();
   return name;
 }
 
@@ -205,6 +214,7 @@ Plan make_plan(const Pipeline& pipeline, const fs::path& output) {
   plan.output = output;
   plan.color = pipeline.color;
   plan.color.config = chosen_config("", pipeline.color.config);
+  plan.max_memory = pipeline.max_memory;
   plan.material = pipeline.material;
   plan.environments = pipeline.environments;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/pipeline/run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <new>
@@ -8,7 +9,9 @@
 
 #include "inputs.h"
 #include "kiln/store/publish.h"
+#include "mip_files.h"
 #include "outputs.h"
+#include "sheet_files.h"
 
 namespace kiln {
 namespace {
@@ -110,11 +113,21 @@ class Runner {
   }
 
   LoadedSet load(const PlannedSet& set) {
-    LoadedSet loaded = load_set(set, plan_.color, config_);
-    for (const std::string& warning : loaded.record.warnings) warn(set.name + ": " + warning);
-    if (watcher_.loaded) watcher_.loaded(loaded.record);
-    report_.sets.push_back(loaded.record);
+    LoadedSet loaded = load_set(set, plan_.color, config_, wanted_of(set), plan_.max_memory);
+    tell(loaded.record);
     return loaded;
+  }
+
+  // What the most demanding of its tasks wants.
+  Size wanted_of(const PlannedSet& set) const {
+    Size wanted{1, 1};
+    for (const Task& task : plan_.tasks) {
+      if (!task.needs.material || &plan_.sets[*task.set] != &set) continue;
+      const Size one = task.needs.material_for;
+      if (one.width <= 0) return {};
+      wanted = {std::max(wanted.width, one.width), std::max(wanted.height, one.height)};
+    }
+    return wanted;
   }
 
   LoadedLight load(size_t environment) {
@@ -170,13 +183,44 @@ class Runner {
     if (task.needs.light) ingredients.light = lights_[*task.environment].get().made.light.get();
     if (task.needs.albedo) ingredients.albedo = albedo_.get().get();
     ingredients.coded = coded_as;
+    std::optional<SetReader> reader;
+    if (task.needs.maps.any()) {
+      reader.emplace(plan_.sets[*task.set], plan_.color, config_, task.needs.maps);
+      ingredients.maps = &reader->bands();
+    }
     Baked baked = task.recipe->bake(ingredients);
     for (Artifact& artifact : baked.artifacts) heed_signals(artifact.bands);
     record.notes = baked.notes;
     record.figures = baked.figures;
-    const Written written = write_outputs(plan_, task, baked, config_);
-    record.outputs = written.outputs;
+    add(write_outputs(plan_, task, baked, config_), record);
+    if (!reader) return;
+    const auto heed = [this] {
+      if (interrupted()) throw Error(Fault::Interrupted, "stopped by a signal");
+    };
+    if (baked.mips) {
+      add(write_mips(plan_, task, *baked.mips, *reader, config_, heed), record);
+      const auto figures = baked.mips->figures();
+      record.figures.insert(record.figures.end(), figures.begin(), figures.end());
+    }
+    if (baked.sheet) {
+      add(write_sheet(plan_, task, *baked.sheet, *reader, config_, heed), record);
+    }
+    tell(reader->record());
+  }
+
+  static void add(const Written& written, TaskRecord& record) {
+    record.outputs.insert(record.outputs.end(), written.outputs.begin(), written.outputs.end());
     record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
+  }
+
+  // Each set once, however many of its tasks read it.
+  void tell(const SetRecord& set) {
+    const bool told = std::any_of(report_.sets.begin(), report_.sets.end(),
+                                  [&](const SetRecord& other) { return other.name == set.name; });
+    if (told) return;
+    for (const std::string& warning : set.warnings) warn(set.name + ": " + warning);
+    if (watcher_.loaded) watcher_.loaded(set);
+    report_.sets.push_back(set);
   }
 
   bool interrupted() {

@@ -100,6 +100,7 @@ BlockFacts pipeline_block() {
           {required(version_key()), text("name", "name of the pipeline"),
            shaped("vars", Shape::Named, "", "texts that \"{name}\" stands for elsewhere"),
            shaped("color", Shape::Block, "color", "colour management"),
+           shaped("limits", Shape::Block, "limits", "what a run may take"),
            shaped("environment", Shape::Named, "environment", "environments, by name"),
            shaped("sets", Shape::Blocks, "set", "texture sets"),
            shaped("material", Shape::Block, "material", "the model that the maps feed"),
@@ -113,6 +114,12 @@ BlockFacts color_block() {
            text("working", "colour space that everything is computed in", "lin_rec709_scene"),
            word("on_conversion", {"allow", "warn", "refuse"}, "warn",
                 "what to do when a map's own colour tag contradicts the space it is read in")}};
+}
+
+BlockFacts limits_block() {
+  return {"limits",
+          "what a run may take",
+          {text("memory", "of the whole process: 4GiB; bakes read narrower bands to keep it")}};
 }
 
 BlockFacts environment_block() {
@@ -202,8 +209,8 @@ BlockFacts material_file_block() {
 
 const std::vector<BlockFacts>& all_blocks() {
   static const std::vector<BlockFacts> blocks = {
-      pipeline_block(), color_block(),    environment_block(), set_block(),
-      map_block(),      material_block(), any_bake_block(),    material_file_block()};
+      pipeline_block(), color_block(),    limits_block(),   environment_block(),  set_block(),
+      map_block(),      material_block(), any_bake_block(), material_file_block()};
   return blocks;
 }
 
@@ -239,7 +246,8 @@ BlockFacts bake_block(const BakeFacts& bake) {
   for (const ParamFacts& param : bake.params) own.insert(param.name);
   std::vector<Key> runner = output_keys(bake.product);
   if (make_recipe(bake.name)->needs().light) {
-    runner.push_back(required(text("env", "name of an environment of this file")));
+    Key env = text("env", "name of an environment of this file");
+    runner.push_back(bake.own_lights ? std::move(env) : required(std::move(env)));
   }
   for (Key& key : runner) {
     if (!own.count(key.facts.name)) block.keys.push_back(std::move(key));

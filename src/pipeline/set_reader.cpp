@@ -91,9 +91,11 @@ SetReader::SetReader(const PlannedSet& set, const ColorChoice& color, const Colo
   open(needed_maps(needs));
   decide_size(needs);
   bands_.name = set.name;
+  bands_.working = color.working;
   bands_.wrap = settled(set.reading.wrap);
   bands_.alpha_cutoff = set.alpha_cutoff;
   bands_.stored = [this](const MapRows& rows) { return stored(rows); };
+  bands_.linear = [this](const MapRows& rows) { return linear(rows); };
   bands_.svbrdf = [this](const MapRows& rows) { return svbrdf(rows); };
   bands_.whole = [this](Slot slot) {
     const Map& map = *find(slot);
@@ -132,7 +134,7 @@ void SetReader::open(const std::vector<PlannedMap>& maps) {
     const std::string color = decide_color(map, facts, added.from);
     const std::string name = map.path.filename().string();
     bands_.given.push_back({map.slot, name, false, facts.size, static_cast<int>(added.names.size()),
-                            std::string(pixel_type_name(facts.type))});
+                            std::string(pixel_type_name(facts.type)), added.from});
     record_.maps.push_back(
         {std::string(slot_name(map.slot)), name, map.channels, map.reason, color});
   }
@@ -145,7 +147,8 @@ void SetReader::add_constant(const PlannedMap& map) {
   constant.decoding = map.decoding;
   constant.source = "constant";
   const std::string color = constant_to_working(constant, map, config_, color_.working);
-  bands_.given.push_back({map.slot, "constant", true, {1, 1}, slot_facts(map.slot).channels, ""});
+  bands_.given.push_back(
+      {map.slot, "constant", true, {1, 1}, slot_facts(map.slot).channels, "", ""});
   record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, color});
 }
 
@@ -266,6 +269,12 @@ std::optional<NormalForm> SetReader::survey_normals() const {
   return survey.form();
 }
 
+int SetReader::channels_read() const {
+  int channels = 0;
+  for (const File& file : files_) channels += static_cast<int>(file.rows.facts().channels.size());
+  return channels;
+}
+
 MapRows SetReader::next(int rows) {
   MapRows read;
   read.rows = {next_row_, rows};
@@ -328,6 +337,18 @@ SlotMaps SetReader::stored(const MapRows& rows) const {
     filled.image = fitted(map, std::move(filled.image), rows);
   }
   return stored;
+}
+
+SlotMaps SetReader::linear(const MapRows& rows) const {
+  SlotMaps linear;
+  for (const Map& map : maps_) {
+    if (map.from.empty()) continue;
+    SlotMap& filled = linear[map.planned.slot] = head(map);
+    filled.image = as_rgb(picked(map, rows));
+    colors_to_working(filled.image, map.from, map.planned, config_, color_.working);
+    filled.image = fitted(map, std::move(filled.image), rows);
+  }
+  return linear;
 }
 
 Svbrdf SetReader::svbrdf(const MapRows& rows) const {

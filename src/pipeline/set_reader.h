@@ -26,6 +26,8 @@ class SetReader {
 
   /// What bakes see of it; outlived by the reader.
   const MapBands& bands() const { return bands_; }
+  /// Of all files together.
+  int channels_read() const;
   /// The rows below those before.
   MapRows next(int rows);
   /// What became of each slot, and of the texels read so far.
@@ -65,6 +67,7 @@ class SetReader {
   Layers picked(const Map& map, const MapRows& rows) const;
   Layers fitted(const Map& map, Layers image, const MapRows& rows) const;
   SlotMaps stored(const MapRows& rows) const;
+  SlotMaps linear(const MapRows& rows) const;
   Svbrdf svbrdf(const MapRows& rows) const;
   SlotMap head(const Map& map) const;
 

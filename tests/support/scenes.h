@@ -52,7 +52,8 @@ inline Layers constant_latlong(double radiance) {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Bakes a preview of `material` in `latlong` with the given settings.
+/// Bakes a preview of `material` in `latlong` with the given settings; without an environment where
+/// that has no planes.
 /// @param shared  a table of albedos to use instead of the lobe's own
 inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
                           const SurfaceChoice& surface = {}, const AlbedoTable* shared = nullptr) {
@@ -61,7 +62,8 @@ inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const S
   LightSettings light_settings;
   light_settings.prefiltered = recipe->needs().prefiltered;
   light_settings.size = 32;
-  const LightMade made = make_light(latlong_image(latlong), light_settings);
+  LightMade made;
+  if (!latlong.layers.empty()) made = make_light(latlong_image(latlong), light_settings);
   static std::map<std::string, std::shared_ptr<const AlbedoTable>> albedos;
   auto& albedo = albedos[surface.distribution + surface.masking];
   if (!albedo && !shared) albedo = make_albedo_table(surface);

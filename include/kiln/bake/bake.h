@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kiln/bake/mip_sheet.h"
 #include "kiln/bake/surface_choice.h"
 #include "kiln/core/param.h"
 #include "kiln/image/bands.h"
@@ -29,7 +30,8 @@ enum class Scope { Once, PerSet };
 enum class Product {
   Numbers,  ///< a file of numbers, written as they are
   Picture,  ///< a file of radiance; formats made for viewing (png, jpg) get it through the display
-  Folder    ///< a folder of named files of numbers
+  Folder,   ///< a folder of named files of numbers
+  Maps      ///< a folder of maps, or a pattern with "{suffix}" in the place of a map's name
 };
 
 /// What a bake says of itself. Help, parsing, docs and tests follow from it.
@@ -39,6 +41,7 @@ struct BakeFacts {
   Scope scope = Scope::Once;
   std::vector<ParamFacts> params;
   Product product = Product::Numbers;
+  bool own_lights = false;  ///< its settings may hold lights that do without an environment
 };
 
 /// Maps of a set that are read band by band.
@@ -52,11 +55,15 @@ struct MapNeeds {
 
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
 struct Needs {
-  bool material = false;     ///< the SVBRDF of the set
+  bool material = false;  ///< the SVBRDF of the set
+  /// So many texels of it each way are enough: larger sets may be halved until they come near.
+  /// Without a width all are wanted.
+  Size material_for = {};
   bool light = false;        ///< an environment (key `env`)
   bool sampled = false;      ///< its distribution of directions too
   bool prefiltered = false;  ///< and its specular chain and irradiance
   bool albedo = false;       ///< the directional-albedo table of the model
+  bool own_lights = false;   ///< the settings hold lights: an environment may be missing
   MapNeeds maps = {};        ///< the maps of the set, band by band
 };
 
@@ -89,6 +96,9 @@ struct Artifact {
   Layers image;
   std::optional<TextureProduct> texture;  ///< when there, this is the product
   std::string text;                       ///< when not empty, this is the product
+  /// Of a picture that no display shows as it is: what formats made for viewing hold instead, R G B
+  /// [A] as a display that encodes as sRGB takes them.
+  std::optional<Layers> view = {};
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata of the file
   std::string preferred_type =
       {};         ///< "half": taken where the format holds it and none is asked for
@@ -97,10 +107,21 @@ struct Artifact {
   std::vector<std::string> channel_names = {};  ///< of tables: "scale", "bias"
   /// In place of the image, where it has a size: what need not be held whole. Numbers only.
   ImageBands bands = {};
+  /// Of colours: the space that they are in, and the one that the file holds. Empty: numbers.
+  std::string color_from = {}, color_to = {};
+};
+
+/// Files of one size that are made together, a band of rows at a time, from the maps of a set.
+struct MapSheet {
+  std::vector<Artifact> files;  ///< their images have no texels: names of layers
+  /// The same rows of every file. May be called from many threads at once.
+  std::function<std::vector<Layers>(const MapRows&)> make;
 };
 
 struct Baked {
   std::vector<Artifact> artifacts;
+  std::optional<MapSheet> sheet = {};                   ///< of bakes that read maps band by band
+  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };

@@ -21,6 +21,7 @@ struct GivenMap {
   Size size{1, 1};          ///< of its own file
   int channels = 1;         ///< that the slot takes of it
   std::string stored_type;  ///< of its samples: "uint8", "half", ...; empty: a constant
+  std::string color_space;  ///< that its colours are stored in; empty: numbers
 };
 
 /// Rows of a set as its files hold them. What they come to, MapBands tells.
@@ -38,6 +39,7 @@ struct MapRows {
 /// threads at once.
 struct MapBands {
   std::string name;                         ///< of the set
+  std::string working;                      ///< the colour space of what is resolved
   Size size;                                ///< of every map, once resampled: the largest's
   Wrap wrap = Wrap::Repeat;                 ///< what lies beyond its edges
   std::optional<double> alpha_cutoff = {};  ///< of a cutout: below it, opacity is 0
@@ -47,6 +49,8 @@ struct MapBands {
   /// Values as stored: colours still encoded, normals as numbers; scaled and offset where the set
   /// says so, roughness perceptual. Constants have no image.
   std::function<SlotMaps(const MapRows&)> stored;
+  /// Colours alone, in the working space.
+  std::function<SlotMaps(const MapRows&)> linear;
   /// One BRDF per texel, colours in the working space.
   std::function<Svbrdf(const MapRows&)> svbrdf;
   /// All rows of one map as stored, at its own size; the file is read for it.

@@ -102,6 +102,7 @@ struct Pipeline {
   std::vector<SetChoice> sets;
   MaterialChoice material;
   std::vector<BakeChoice> bakes;
+  long long max_memory = 0;  ///< [byte] that a run may take; 0: no limit
 };
 
 /// Reads and checks a pipeline file.

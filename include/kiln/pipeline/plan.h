@@ -65,7 +65,12 @@ struct Plan {
   std::vector<PlannedSet> sets;
   std::vector<Task> tasks;  ///< those of no set first, then set by set
   std::vector<std::string> warnings;
+  long long max_memory = 0;  ///< [byte] that the process may take; 0: no limit
 };
+
+/// What a task takes at most, by the headers of its files: an upper bound [byte]. Nothing where it
+/// is not predicted: tables and environments, and sets whose files cannot be read.
+std::optional<long long> predicted_memory(const Plan& plan, const Task& task);
 
 /// The texture sets of a pipeline, with what fills their slots.
 /// @error as make_plan

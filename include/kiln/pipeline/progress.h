@@ -14,7 +14,7 @@ struct Progress {
 };
 
 /// What a run tells while it works, and asks. Empty functions are not called; all calls come from
-/// the thread that runs.
+/// the thread that runs, but those of `interrupted`, which come from any.
 struct Watcher {
   std::function<void(const TaskRecord&, const Progress&)> began;
   std::function<void(const TaskRecord&, const Progress&)> ended;

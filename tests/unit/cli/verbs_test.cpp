@@ -148,6 +148,49 @@ TEST(PreviewVerb, IsLitByAnyProjection) {
   EXPECT_THAT(outcome.err, HasSubstr("(6:1, as stated)"));
 }
 
+TEST(PreviewVerb, IsLitByLightsAloneOrBesideAnEnvironment) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  shop.paint_set("rock");
+  const std::vector<std::string> words = {"preview",
+                                          "--light",
+                                          "dir:0,1,1:1,1,1",
+                                          "--light",
+                                          "dir:1,0,1:2,1,1",
+                                          (shop / "rock").string(),
+                                          "-o",
+                                          (shop / "a.exr").string(),
+                                          "--samples",
+                                          "4"};
+  const Outcome alone = kiln(shop, words);
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  const double dark = read_image(shop / "a.exr").image.find("R")->at(1, 1);
+  std::vector<std::string> beside = words;
+  beside.insert(beside.end(), {"--env", sky.string()});
+  const Outcome both = kiln(shop, beside);
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_GT(dark, 0.1);
+  EXPECT_GT(read_image(shop / "a.exr").image.find("R")->at(1, 1), dark + 0.1);
+}
+
+TEST(PreviewVerb, ShowsDifferencesInFalseColoursAndWritesTheirNumbers) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  shop.paint_set("rock");
+  const auto made = [&](const char* name) {
+    return kiln(shop, {"preview", (shop / "rock").string(), "--env", sky.string(), "--samples", "4",
+                       "--size", "64", "--mode", "difference", "-o", (shop / name).string()});
+  };
+  EXPECT_EQ(made("a.png").code, 0);
+  EXPECT_GT(inspect_image(shop / "a.png").size.height, 64);
+  EXPECT_EQ(made("a.exr").code, 0);
+  EXPECT_GT(count_oddities(read_image(shop / "a.exr").image).negative, 0);
+  const Outcome refused = made("a.hdr");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("hdr holds no negative numbers"));
+  EXPECT_FALSE(std::filesystem::exists(shop / "a.hdr"));
+}
+
 TEST(PreviewVerb, ReadsAMaterialFile) {
   const Workshop shop;
   const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/texture.h>
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -7,6 +8,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "kiln/io/texture_writer.h"
 #include "support/outside_command.h"
 #include "texture_pattern.h"
 
@@ -58,6 +60,45 @@ TEST_F(Readers, OpenImageIoFindsEveryLevelOfAMipMappedOpenExr) {
         }
       }
     }
+  }
+}
+
+// A lookup of the whole texture from afar reads its smallest level; one of its middle the largest.
+float looked_up(const fs::path& path, float footprint) {
+  OIIO::TextureSystem* system = OIIO::TextureSystem::create(false);
+  OIIO::TextureOpt options;
+  options.swrap = options.twrap = OIIO::TextureOpt::WrapDefault;  // as the file says
+  std::array<float, 3> texel{};
+  EXPECT_TRUE(system->texture(OIIO::ustring(path.string()), options, 0.51f, 1.3f, footprint, 0, 0,
+                              footprint, 3, texel.data()))
+      << system->geterror();
+  OIIO::TextureSystem::destroy(system);
+  return texel[1];
+}
+
+TEST_F(Readers, OpenImageIosTextureSystemReadsTheLevelsOfGrowingTextures) {
+  for (const char* name : {"a.exr", "a.tif", "a.tx"}) {
+    TextureLayout layout{{100, 70}, 7, {"R", "G", "B"}};
+    TextureWriter writer(folder / name, layout, {.type = PixelType::Half});
+    Size size = layout.size;
+    for (int level = 0; level < 7; ++level) {
+      Layers image = make_layers(size, layout.names);
+      for (Layer& layer : image.layers) layer.plane = Plane(size, 0.5f + 0.25f * float(level));
+      writer.add(level, image);
+      size = {std::max(1, size.width / 2), std::max(1, size.height / 2)};
+    }
+    writer.finish();
+    const std::vector<Read> levels = levels_of(folder / name);
+    ASSERT_EQ(levels.size(), 7u) << name;
+    for (size_t l = 0; l < 7; ++l) {
+      EXPECT_EQ(levels[l].spec.width, std::max(1, 100 >> l)) << name;
+      EXPECT_EQ(levels[l].spec.tile_width, 64) << name;
+      EXPECT_EQ(levels[l].at(0, 0, 2), 0.5f + 0.25f * float(l)) << name;
+    }
+    EXPECT_EQ(levels[0].spec.get_string_attribute("textureformat"), "Plain Texture") << name;
+    EXPECT_EQ(levels[0].spec.get_string_attribute("wrapmodes"), "periodic,periodic") << name;
+    EXPECT_EQ(looked_up(folder / name, 1e-4f), 0.5f) << name;
+    EXPECT_EQ(looked_up(folder / name, 4.0f), 2.0f) << name;
   }
 }
 

@@ -126,6 +126,24 @@ TEST(Plan, RefusesModelsThatDoNotFitOrCannotBeBaked) {
               HasSubstr("glass is rendered in mode reference only"));
 }
 
+TEST(Plan, LetsLightsStandInForAnEnvironment) {
+  const Workshop shop;
+  shop.paint_set("tex/a");
+  const std::string sets = "sets: [{ path: tex/a }]\n";
+  const Plan plan = plan_of(shop, sets +
+                                      "bakes:\n  - bake: preview\n    out: a.exr\n    lights:\n"
+                                      "      - dir:0,0,1:1,1,1\n      - dir:1,0,1:2,2,2\n");
+  ASSERT_EQ(plan.tasks.size(), 1u);
+  EXPECT_FALSE(plan.tasks[0].needs.light);
+  EXPECT_THAT(refusal_of(shop, sets + "bakes: [{ bake: preview, out: a.exr }]\n"),
+              HasSubstr("expected 'env', 'lights' or both"));
+  EXPECT_THAT(refusal_of(shop, sets + "bakes: [{ bake: preview, lights: \"dir:0,0,1\", "
+                                      "out: a.exr }]\n"),
+              HasSubstr("light: found 'dir:0,0,1', expected dir:x,y,z:r,g,b"));
+  EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: environment, out: a }]\n"),
+              HasSubstr("key 'env' is missing"));
+}
+
 TEST(Plan, RefusesFormatsAndTypesItCannotWrite) {
   const Workshop shop;
   EXPECT_THAT(refusal_of(shop, "bakes: [{ bake: lut, out: a.exrr }]\n"),

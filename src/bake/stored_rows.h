@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kiln/bake/bake.h"
+
+namespace kiln {
+
+/// The map that stands for a slot: of roughness also gloss, of base colour diffuse, and the other
+/// way round; nothing where neither is given.
+const GivenMap* standing_for(const MapBands& maps, Slot slot);
+
+/// Rows of one channel of a slot as stored, from the map that stands for it or its constant.
+Plane stored_channel(const SlotMaps& rows, const GivenMap* map, Slot slot, int channel, Size size);
+
+/// Rows of a normal map in a convention, as stored: green turned where that differs, and all three
+/// encoded anew where the file holds two channels or signed numbers.
+Layers stored_normals(const SlotMap& rows, const NormalForm& form, NormalConvention convention);
+
+/// 1 - v of every texel.
+void invert(Plane& plane);
+
+}  // namespace kiln

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheet_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "kiln/io/image_file.h"
+#include "kiln/parallel/rows.h"
+#include "kiln/parallel/stages.h"
+#include "kiln/pipeline/report.h"
+#include "memory.h"
+
+namespace kiln {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view suffix_mark = "{suffix}";
+constexpr std::string_view srgb = "srgb_rec709_scene";
+
+PixelType type_of(const Task& task, const Artifact& artifact, const fs::path& path) {
+  if (task.output.type) return *task.output.type;
+  const WritableFormat& format = writable_format(path);
+  for (const PixelType held : format.types) {
+    if (pixel_type_name(held) == artifact.preferred_type) return held;
+  }
+  return format.types.front();
+}
+
+WriteOptions options_of(const Task& task, const Artifact& artifact, const fs::path& path) {
+  WriteOptions options;
+  options.type = type_of(task, artifact, path);
+  options.attributes = artifact.attributes;
+  options.attributes.emplace_back("Software", software());
+  options.attributes.emplace_back("colorInteropID",
+                                  artifact.color_to.empty() ? "data" : artifact.color_to);
+  if (artifact.color_to == srgb) options.color_tag = ColorTag::Srgb;
+  return options;
+}
+
+std::vector<std::string> names_of(const Layers& image) {
+  std::vector<std::string> names;
+  for (const Layer& layer : image.layers) names.push_back(layer.name);
+  return names;
+}
+
+/// A file of a sheet on its way.
+struct File {
+  const Artifact& artifact;
+  std::string name;
+  PixelType type;
+  std::unique_ptr<ImageWriter> writer;
+};
+
+std::vector<File> open_files(const Plan& plan, const Task& task, const MapSheet& sheet, Size size) {
+  std::vector<File> files;
+  for (const Artifact& artifact : sheet.files) {
+    const std::string name = map_file_name(task, artifact, sheet.files.size());
+    for (const File& other : files) {
+      if (other.name == name) {
+        throw Error(Fault::Usage,
+                    fmt::format("out: two files of {} would be named '{}'", task.bake, name));
+      }
+    }
+    const fs::path path = plan.output / name;
+    const WriteOptions options = options_of(task, artifact, path);
+    files.push_back({artifact, name, options.type,
+                     std::make_unique<ImageWriter>(path, size, names_of(artifact.image), options)});
+  }
+  return files;
+}
+
+std::string clamping_note(const File& file, const WriteFacts& facts) {
+  return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
+                     fs::path(file.name).filename().string(), facts.clamped,
+                     pixel_type_name(file.type), facts.largest_clamped);
+}
+
+/// A band, from what is read to what is written.
+struct Band {
+  MapRows read;
+  std::vector<Layers> made;
+};
+
+}  // namespace
+
+std::string map_file_name(const Task& task, const Artifact& artifact, size_t files) {
+  std::string name = task.out;
+  const size_t mark = name.find(suffix_mark);
+  if (mark != std::string::npos) {
+    name.replace(mark, suffix_mark.size(), artifact.name);
+    return fs::path(name).has_extension() ? name : name + artifact.extension;
+  }
+  if (names_an_image(name)) {
+    if (files == 1) return name;
+    throw Error(Fault::Usage, fmt::format("out: found one file, '{}', but {} makes {}; expected a "
+                                          "folder, or {} in the name",
+                                          task.out, task.bake, files, suffix_mark));
+  }
+  return (fs::path(name) / (artifact.name + artifact.extension))
+      .lexically_normal()
+      .generic_string();
+}
+
+Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
+                    const ColorConfig& config, const std::function<void()>& heed) {
+  const Size size = reader.bands().size;
+  const BandPlan bands =
+      plan_bands(row_cost(size, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
+  std::vector<File> files = open_files(plan, task, sheet, size);
+  const auto make = [&](Band& band) {
+    band.made = sheet.make(band.read);
+    band.read.windows.clear();
+    for (size_t i = 0; i < files.size(); ++i) {
+      const Artifact& artifact = files[i].artifact;
+      if (artifact.color_from == artifact.color_to) continue;
+      config.convert(band.made[i], artifact.color_from, artifact.color_to);
+    }
+  };
+  const auto write = [&](const Band& band) {
+    for_rows(static_cast<int>(files.size()), [&](int i) {
+      const auto at = static_cast<size_t>(i);
+      files[at].writer->add(band.made[at]);
+    });
+  };
+  run_stages<Band>(
+      (size.height + bands.rows - 1) / bands.rows, bands.at_once,
+      [&](int i) {
+        heed();
+        return Band{reader.next(std::min(bands.rows, size.height - i * bands.rows)), {}};
+      },
+      [&](int, Band& band) { make(band); }, [&](int, Band& band) { write(band); });
+  Written written;
+  for (File& file : files) {
+    const WriteFacts facts = file.writer->finish();
+    written.outputs.push_back(file.name);
+    if (facts.clamped > 0) written.notes.push_back(clamping_note(file, facts));
+  }
+  return written;
+}
+
+}  // namespace kiln
