@@ -235,23 +235,16 @@ Layers blank_sheet(const Svbrdf& maps, const ShadingInputs& inputs, const Settin
   return sheet;
 }
 
-void place_tiles(const std::vector<Tile>& tiles, const std::vector<Layers>& pictures,
-                 const Layout& layout, Layers& sheet) {
-  for (size_t i = 0; i < tiles.size(); ++i) {
-    place_tile(pictures[i], tiles[i].caption, static_cast<int>(i), layout, sheet);
-  }
-}
-
 // One scale for all pictures, its legend beside the title.
 Layers false_colour_sheet(const std::vector<Tile>& tiles, const Layout& layout, Layers sheet) {
   std::vector<const Layers*> differences;
+  differences.reserve(tiles.size());
   for (const Tile& tile : tiles) differences.push_back(&tile.picture.image);
   const double scale = difference_scale(differences);
-  std::vector<Layers> pictures;
-  for (const Layers* one : differences) {
-    pictures.push_back(scene_linear(paint_difference(*one, scale)));
+  for (size_t i = 0; i < tiles.size(); ++i) {
+    place_tile(scene_linear(paint_difference(*differences[i], scale)), tiles[i].caption,
+               static_cast<int>(i), layout, sheet);
   }
-  place_tiles(tiles, pictures, layout, sheet);
   const Size strip{layout.cell.width, layout.title * 48 / 128};
   place(scene_linear(difference_legend(strip, scale)), {layout.column(2), layout.title * 28 / 128},
         sheet);
@@ -268,9 +261,9 @@ ContactSheet make_contact_sheet(const Svbrdf& maps, const ShadingInputs& inputs,
   ContactSheet made{means_of(tiles), {}};
   Layers sheet = blank_sheet(maps, inputs, settings, made.whole, layout);
   if (settings.mode == Mode::Difference) made.view = false_colour_sheet(tiles, layout, sheet);
-  std::vector<Layers> pictures;
-  for (const Tile& tile : tiles) pictures.push_back(tile.picture.image);
-  place_tiles(tiles, pictures, layout, sheet);
+  for (size_t i = 0; i < tiles.size(); ++i) {
+    place_tile(tiles[i].picture.image, tiles[i].caption, static_cast<int>(i), layout, sheet);
+  }
   made.whole.image = std::move(sheet);
   return made;
 }
