@@ -77,6 +77,30 @@ Inspected inspected_image(const fs::path& path, ImageFile file) {
 
 Inspected inspect_file(const fs::path& path) { return inspected_image(path, read_image(path)); }
 
+// ", times 0.5, plus 0.5", or nothing.
+std::string scaled_text(const SlotDecoding& decoding) {
+  const SlotDecoding plain;
+  std::string text;
+  const auto numbers = [](const std::array<float, 3>& v) {
+    return v[0] == v[1] && v[1] == v[2] ? fmt::format("{:.6g}", v[0])
+                                        : fmt::format("{:.6g} {:.6g} {:.6g}", v[0], v[1], v[2]);
+  };
+  if (decoding.scale != plain.scale) text += ", times " + numbers(decoding.scale);
+  if (decoding.offset != plain.offset) text += ", plus " + numbers(decoding.offset);
+  return text;
+}
+
+void print_constants(const PlannedSet& set) {
+  for (const PlannedMap& map : set.maps) {
+    if (!map.path.empty() || !map.value) continue;
+    fmt::print("  {}: constant {:.6g} {:.6g} {:.6g} ({}{})\n", slot_name(map.slot), (*map.value)[0],
+               (*map.value)[1], (*map.value)[2], map.reason, scaled_text(map.decoding));
+  }
+  if (set.alpha_cutoff) fmt::print("  cutout where opacity is below {:.6g}\n", *set.alpha_cutoff);
+  const Wrap wrap = settled(set.reading.wrap);
+  if (wrap != Wrap::Repeat) fmt::print("  wrap: {}\n", wrap_names[static_cast<size_t>(wrap)]);
+}
+
 std::vector<Inspected> inspect_set(const PlannedSet& set) {
   if (set.fault) throw Error(*set.fault);
   std::vector<Inspected> list;
@@ -91,7 +115,8 @@ std::vector<Inspected> inspect_set(const PlannedSet& set) {
                                                                        : read_image(map.path)));
     }
     if (map.if_present && !has_channels(found->facts.channels, map.channels)) continue;
-    found->uses.push_back({fmt::format("{}[{}]", slot_name(map.slot), map.channels), map.reason,
+    found->uses.push_back({fmt::format("{}[{}]", slot_name(map.slot), map.channels),
+                           map.reason + scaled_text(map.decoding),
                            assumed_space(map, found->facts.type)});
   }
   return list;
@@ -165,6 +190,7 @@ std::vector<Inspected> inspect_material(const MaterialOptions& options, const Gl
         fmt::print("  not used: {}: {}\n", file.file, file.reason);
       }
       for (const std::string& warning : set.warnings) fmt::print("  warning: {}\n", warning);
+      print_constants(set);
     }
     for (Inspected& inspected : inspect_set(set)) {
       if (!globals.json) print_text(inspected);

@@ -72,6 +72,21 @@ void decide_color_space(MapSource& map) {
                   slot_name(map.slot), extension, linear ? "linear Rec.709" : "sRGB");
 }
 
+// What later schemes would have read a token of the same letters as: "; o3de reads it as height".
+std::string other_readings(const Schemes& schemes, const TokenMatch& match) {
+  const NamingToken& taken = schemes[match.scheme]->tokens[match.token];
+  std::string text;
+  for (size_t i = match.scheme + 1; i < schemes.size(); ++i) {
+    for (const NamingToken& token : schemes[i]->tokens) {
+      const Slot slot = token.targets.front().slot;
+      if (squeezed(token.token) != squeezed(taken.token)) continue;
+      if (slot == taken.targets.front().slot) continue;
+      text += fmt::format("; {} reads it as {}", schemes[i]->name, slot_name(slot));
+    }
+  }
+  return text;
+}
+
 Claim claim_of(const std::string& file, const Schemes& schemes, const TokenMatch& match,
                const TokenTarget& target) {
   const NamingScheme& scheme = *schemes[match.scheme];
@@ -89,6 +104,7 @@ Claim claim_of(const std::string& file, const Schemes& schemes, const TokenMatch
   map.token = token.token;
   map.reason = fmt::format("token '{}' of scheme {}", token.token, scheme.name);
   if (claim.packed) map.reason += fmt::format(", channel {}", target.channels);
+  map.reason += other_readings(schemes, match);
   if (target.slot == Slot::Normal) {
     const bool stated = token.convention != NormalConvention::Auto;
     map.convention = stated ? token.convention : scheme.convention;
@@ -178,6 +194,30 @@ bool is_complete_metal_rough(const std::vector<Slot>& slots) {
 bool is_complete_spec_gloss(const std::vector<Slot>& slots) {
   return contains(slots, Slot::Diffuse) && contains(slots, Slot::SpecularColor) &&
          (contains(slots, Slot::Gloss) || contains(slots, Slot::Roughness));
+}
+
+// Where the maps of one workflow are all there, those of the other are beside them by accident.
+WorkflowGuess more_complete(const std::vector<Slot>& slots) {
+  if (is_complete_spec_gloss(slots) && !is_complete_metal_rough(slots)) {
+    return {Workflow::SpecGloss, "diffuse, specular colour and gloss or roughness are given"};
+  }
+  return guess_workflow(slots);
+}
+
+// One workflow's maps, incomplete beside those of the one that is read.
+void warn_of_the_other(const std::vector<Slot>& slots, Workflow read,
+                       std::vector<std::string>& warnings) {
+  const bool metal = read == Workflow::MetalRough;
+  if (metal ? !is_complete_metal_rough(slots) : !is_complete_spec_gloss(slots)) return;
+  const auto& foreign = metal ? only_spec_gloss : only_metal_rough;
+  std::vector<std::string_view> found, lacking;
+  for (const Slot slot : foreign) {
+    (contains(slots, slot) ? found : lacking).push_back(slot_name(slot));
+  }
+  if (found.empty() || lacking.empty()) return;
+  warnings.push_back(fmt::format("{} belongs to another workflow, which lacks {}; {} is read",
+                                 fmt::join(found, ", "), fmt::join(lacking, ", "),
+                                 workflow_name(read)));
 }
 
 // Without the files that belong to the other workflow.
@@ -304,7 +344,8 @@ std::vector<FoundSet> find_sets(const std::string& folder_name,
     add(metal, Workflow::MetalRough, gloss, reason);
     add(gloss, Workflow::SpecGloss, metal, reason);
   } else {
-    const WorkflowGuess guess = guess_workflow(slots);
+    const WorkflowGuess guess = more_complete(slots);
+    warn_of_the_other(slots, guess.workflow, warnings);
     add(folder_name, guess.workflow, "", guess.reason);
   }
   return sets;

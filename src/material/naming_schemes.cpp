@@ -165,11 +165,71 @@ NamingScheme generic() {
            whole("emit", Slot::Emissive)}};
 }
 
+// `_d` is displacement and `_m` metal here, elsewhere diffuse and, at times, a mask: this scheme
+// comes last, and has those letters only where it is asked for.
+NamingScheme o3de() {
+  return {"o3de",
+          "O3DE: rock_basecolor, rock_ddn, rock_mt, rock_ht; _d is displacement where it is stated",
+          {whole("alb", Slot::BaseColor),
+           whole("albedo", Slot::BaseColor),
+           whole("basecolor", Slot::BaseColor),
+           whole("bc", Slot::BaseColor),
+           whole("col", Slot::BaseColor),
+           whole("color", Slot::BaseColor),
+           whole("diff", Slot::BaseColor),
+           whole("diffuse", Slot::BaseColor),
+           whole("rough", Slot::Roughness),
+           whole("roughness", Slot::Roughness),
+           whole("g", Slot::Gloss),
+           whole("gloss", Slot::Gloss),
+           whole("m", Slot::Metallic),
+           whole("metal", Slot::Metallic),
+           whole("metallic", Slot::Metallic),
+           whole("metalness", Slot::Metallic),
+           whole("mt", Slot::Metallic),
+           whole("mtl", Slot::Metallic),
+           normal("ddn", NormalConvention::Auto),
+           normal("n", NormalConvention::Auto),
+           normal("nm", NormalConvention::Auto),
+           normal("nor", NormalConvention::Auto),
+           normal("norm", NormalConvention::Auto),
+           normal("normal", NormalConvention::Auto),
+           normal("normalmap", NormalConvention::Auto),
+           normal("normals", NormalConvention::Auto),
+           normal("nrm", NormalConvention::Auto),
+           whole("d", Slot::Height),
+           whole("disp", Slot::Height),
+           whole("displ", Slot::Height),
+           whole("displacement", Slot::Height),
+           whole("dm", Slot::Height),
+           whole("dsp", Slot::Height),
+           whole("h", Slot::Height),
+           whole("height", Slot::Height),
+           whole("hm", Slot::Height),
+           whole("ht", Slot::Height),
+           whole("amb", Slot::AmbientOcclusion),
+           whole("ambientocclusion", Slot::AmbientOcclusion),
+           whole("ambocc", Slot::AmbientOcclusion),
+           whole("ao", Slot::AmbientOcclusion),
+           whole("f0", Slot::SpecularColor),
+           whole("specf0", Slot::SpecularColor),
+           specular("spec"),
+           specular("specular"),
+           whole("op", Slot::Opacity),
+           whole("opacity", Slot::Opacity),
+           whole("mask", Slot::Opacity),
+           whole("e", Slot::Emissive),
+           whole("em", Slot::Emissive),
+           whole("emissive", Slot::Emissive),
+           whole("emit", Slot::Emissive),
+           whole("glow", Slot::Emissive)}};
+}
+
 }  // namespace
 
 const std::vector<NamingScheme>& all_naming_schemes() {
-  static const std::vector<NamingScheme> schemes = {polyhaven(), ambientcg(), substance(), gltf(),
-                                                    generic()};
+  static const std::vector<NamingScheme> schemes = {polyhaven(), ambientcg(), substance(),
+                                                    gltf(),      generic(),   o3de()};
   return schemes;
 }
 

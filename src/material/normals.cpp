@@ -82,6 +82,22 @@ void strengthen_row(std::array<float*, 3> n, int width, float strength) {
   }
 }
 
+// Grey that varies: directions never do that, for a unit vector on the diagonal is one only.
+bool is_grey_relief(const Layers& stored) {
+  if (stored.layers.size() < 3 || stored.layers[2].name == "A") return false;
+  const Plane &r = stored.layers[0].plane, &g = stored.layers[1].plane, &b = stored.layers[2].plane;
+  for (int y = 0; y < r.height(); ++y) {
+    const auto red = r.texels_of_row(y), green = g.texels_of_row(y), blue = b.texels_of_row(y);
+    if (!std::equal(red.begin(), red.end(), green.begin()) ||
+        !std::equal(red.begin(), red.end(), blue.begin())) {
+      return false;
+    }
+  }
+  constexpr float visible = 0.02f;
+  const Extremes found = extremes_of(r);
+  return found.max - found.min > visible;
+}
+
 // One row of components to unit vectors above the surface.
 void make_unit_row(std::array<float*, 3> n, int width, DecodedNormals& counts) {
   int degenerate = 0, below = 0, unreadable = 0;
@@ -119,6 +135,11 @@ void rebuild_z_row(std::array<float*, 3> n, int width) {
 }  // namespace
 
 DecodedNormals decode_normals(const Layers& stored, const NormalDecoding& decoding) {
+  if (is_grey_relief(stored)) {
+    throw Error(Fault::Input,
+                "red, green and blue are equal everywhere: this is a height map in the place of "
+                "normals; fill the slot `height` with it");
+  }
   if (stored.layers.size() < 2) {
     throw Error(Fault::Input, "a normal map has two or three channels, this one has one");
   }

@@ -52,11 +52,6 @@ void note_unread(const SlotMaps& maps, const std::vector<Slot>& read, Workflow w
 
 std::string text_of(Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
-bool has_other_aspect(Size size, Size wanted) {
-  const double aspect = static_cast<double>(size.width) / size.height;
-  return std::abs(aspect / (static_cast<double>(wanted.width) / wanted.height) - 1) > 0.01;
-}
-
 void note_normals(const Repairs& repairs, Texts& notes) {
   if (repairs.degenerate) {
     say(notes, "normal: {} without direction, made flat", repairs.degenerate);
@@ -146,11 +141,6 @@ std::vector<std::string> Resolver::warnings(const Repairs& repairs) const {
     say(warnings, "normal: {} are NaN or Inf, made flat", repairs.unreadable_normals);
   }
   for (const Slot slot : read_) {
-    const SlotMap* map = given_image(heads_, slot);
-    if (map && has_other_aspect(map->image.size, size_)) {
-      say(warnings, "{} {} has another aspect than {}", slot_name(slot), text_of(map->image.size),
-          text_of(size_));
-    }
     warn_of_repairs(slot, bounds_of(heads_, slot), repairs.slots[static_cast<size_t>(slot)],
                     warnings);
   }

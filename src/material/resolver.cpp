@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiln/material/resolver.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -224,6 +226,33 @@ Size largest_size(const SlotMaps& maps, const std::vector<Slot>& read) {
   return largest;
 }
 
+std::string described(Slot slot, const SlotMap& map) {
+  return fmt::format("{} {} ({}x{})", slot_name(slot), map.source, map.image.size.width,
+                     map.image.size.height);
+}
+
+// More than rounding to whole texels explains.
+bool has_other_aspect(Size size, Size wanted) {
+  const double height = static_cast<double>(size.width) * wanted.height / wanted.width;
+  const double width = static_cast<double>(size.height) * wanted.width / wanted.height;
+  const double off = std::min(std::abs(height - size.height), std::abs(width - size.width));
+  return off > 1 && std::abs(height / size.height - 1) > 0.01;
+}
+
+void require_one_aspect(const SlotMaps& maps, const std::vector<Slot>& read, Size size) {
+  const auto of_size = std::find_if(read.begin(), read.end(), [&](Slot slot) {
+    const SlotMap* map = given_image(maps, slot);
+    return map && map->image.size == size;
+  });
+  for (const Slot slot : read) {
+    const SlotMap* map = given_image(maps, slot);
+    if (!map || area(map->image.size) == 0 || !has_other_aspect(map->image.size, size)) continue;
+    throw Error(Fault::Input,
+                fmt::format("{} and {} cannot belong together: their aspects differ",
+                            described(*of_size, maps.at(*of_size)), described(slot, *map)));
+  }
+}
+
 }  // namespace
 
 void Repairs::add(const Repairs& other) {
@@ -267,6 +296,7 @@ Resolver::Resolver(SlotMaps heads, const WorkflowSettings& settings,
   for (const auto& [slot, map] : heads_) given.push_back(slot);
   read_ = slots_read(settings_.workflow, given);
   size_ = largest_size(heads_, read_);
+  require_one_aspect(heads_, read_, size_);
   for (auto& [slot, map] : heads_) {
     if (map.value) decode_slot(slot, map);
   }

@@ -132,7 +132,7 @@ const Params<WorkflowSettings>& workflow_params() {
       word_param("normal_range", &WorkflowSettings::normal_range, words_of(normal_range_names),
                  "normal maps store [0,1] (unsigned) or [-1,1] (signed)"),
       word_param("wrap", &WorkflowSettings::wrap, words_of(wrap_choice_names),
-                 "what lies beyond the edges; auto: as the material's file says, else repeat"),
+                 "beyond the edges; auto: as the file says"),
   };
   return params;
 }

@@ -152,7 +152,7 @@ MtlxSource MtlxFile::follow(pugi::xml_node from, Walk walk) const {
   return of_constant(from);
 }
 
-MtlxSource MtlxFile::of_graph(pugi::xml_node graph, pugi::xml_node from, Walk walk) const {
+MtlxSource MtlxFile::of_graph(pugi::xml_node graph, pugi::xml_node from, const Walk& walk) const {
   const std::string name = attribute(from, "output");
   for (const pugi::xml_node output : graph.children("output")) {
     if (name.empty() || attribute(output, "name") == name) return follow(output, walk);
@@ -200,7 +200,7 @@ MtlxSource MtlxFile::of_image(pugi::xml_node node, const std::string& output) co
   if (name.empty()) {
     refuse(node, fmt::format("'{}' names no file", attribute(node, "name")));
   }
-  for (pugi::xml_node at = file; at; at = at.parent()) name = attribute(at, "fileprefix") + name;
+  for (pugi::xml_node at = file; at; at = at.parent()) name.insert(0, attribute(at, "fileprefix"));
   std::replace(name.begin(), name.end(), '\\', '/');
   if (name.find("://") != std::string::npos) {
     refuse(node, fmt::format("'{}' would have to be fetched; expected a file", name));

@@ -48,7 +48,7 @@ class MtlxFile {
     int depth = 0;
   };
   MtlxSource follow(pugi::xml_node from, Walk walk) const;
-  MtlxSource of_graph(pugi::xml_node graph, pugi::xml_node from, Walk walk) const;
+  MtlxSource of_graph(pugi::xml_node graph, pugi::xml_node from, const Walk& walk) const;
   MtlxSource of_node(pugi::xml_node node, const std::string& output, Walk walk) const;
   MtlxSource of_image(pugi::xml_node node, const std::string& output) const;
   MtlxSource of_constant(pugi::xml_node at) const;

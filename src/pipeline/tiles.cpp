@@ -122,6 +122,7 @@ std::vector<PlannedSet> tile_by_tile(std::vector<PlannedSet> sets) {
     if (numbers.empty()) {
       set.fault = no_tiles(tiles);
       all.push_back(std::move(set));
+      continue;
     }
     for (const int number : numbers) all.push_back(one_tile(set, number, tiles));
   }

@@ -251,6 +251,37 @@ TEST(InspectVerb, TellsTheSlotsOfASet) {
   EXPECT_THAT(outcome.out, HasSubstr("read as lin_rec709_scene"));
 }
 
+TEST(InspectVerb, ShowsTheConstantsAndFactorsOfADocument) {
+  const Workshop shop;
+  shop.paint("c.png", 0.5f, PixelType::Uint8);
+  const auto file = shop.write("a.gltf", R"({"asset": {"version": "2.0"},
+    "images": [{"uri": "c.png"}], "textures": [{"source": 0}],
+    "materials": [{"name": "wall", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+      "baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0.25}}]})");
+  const Outcome outcome = kiln(shop, {"inspect", file.string()});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("set wall: metal-rough"));
+  EXPECT_THAT(outcome.out, HasSubstr("metallic: constant 0.25"));
+  EXPECT_THAT(outcome.out, HasSubstr("baseColorTexture, times 0.5; read as srgb_rec709_scene"));
+}
+
+TEST(PreviewVerb, OfABrokenDocumentOrMapsOfOtherAspectsIsAnInputError) {
+  const Workshop shop;
+  const auto sky = shop.paint("sky.exr", 1.0f, PixelType::Float, {16, 8});
+  const auto broken = shop.write("a.gltf", "{\"asset\": ");
+  const Outcome document = kiln(
+      shop, {"preview", broken.string(), "--env", sky.string(), "-o", (shop / "a.exr").string()});
+  EXPECT_EQ(document.code, 3);
+  EXPECT_THAT(document.err, HasSubstr("a.gltf:1:"));
+  shop.paint("odd/a_BaseColor.png", 0.5f, PixelType::Uint8, {8, 8});
+  shop.paint("odd/a_Roughness.png", 0.5f, PixelType::Uint8, {8, 4});
+  const Outcome odd = kiln(shop, {"preview", (shop / "odd").string(), "--env", sky.string(), "-o",
+                                  (shop / "a.exr").string()});
+  EXPECT_EQ(odd.code, 3);
+  EXPECT_THAT(odd.err, HasSubstr("base_color a_BaseColor.png (8x8) and roughness a_Roughness.png "
+                                 "(8x4) cannot belong together"));
+}
+
 TEST(InspectVerb, OfAMissingFileIsAnInputError) {
   const Workshop shop;
   EXPECT_EQ(kiln(shop, {"inspect", (shop / "no.png").string()}).code, 3);

@@ -216,6 +216,31 @@ TEST(NamingSchemes, TakeTheTilesOfAMapAsOneFile) {
   EXPECT_TRUE(set.warnings.empty());
 }
 
+TEST(NamingSchemes, ResolveTheClashOfOneLetterByTheirOrderAndSaySo) {
+  const FoundSet set = only_set({"rock_d.png", "rock_r.png"});
+  EXPECT_EQ(source(set, Slot::BaseColor), "rock_d.png:rgb");
+  EXPECT_THAT(find(set, Slot::BaseColor)->reason, testing::HasSubstr("o3de reads it as height"));
+  const auto stated =
+      find_sets("rock", {"rock_d.png", "rock_bc.png", "rock_mt.png"}, {{"o3de"}, std::nullopt});
+  ASSERT_EQ(stated.size(), 1u);
+  EXPECT_EQ(source(stated[0], Slot::Height), "rock_d.png:r");
+  EXPECT_EQ(source(stated[0], Slot::Metallic), "rock_mt.png:r");
+}
+
+TEST(NamingSchemes, ReadTheWorkflowThatIsCompleteAndWarnOfTheOther) {
+  const FoundSet metal =
+      only_set({"a_BaseColor.png", "a_Metallic.png", "a_Roughness.png", "a_Diffuse.png"});
+  EXPECT_EQ(metal.workflow, Workflow::MetalRough);
+  ASSERT_EQ(metal.warnings.size(), 1u);
+  EXPECT_THAT(metal.warnings[0], testing::HasSubstr("diffuse belongs to another workflow, which "
+                                                    "lacks specular_color; metal-rough is read"));
+  const FoundSet gloss =
+      only_set({"a_Diffuse.png", "a_Specular.png", "a_Glossiness.png", "a_Metallic.png"});
+  EXPECT_EQ(gloss.workflow, Workflow::SpecGloss);
+  ASSERT_EQ(gloss.warnings.size(), 1u);
+  EXPECT_THAT(gloss.warnings[0], testing::HasSubstr("lacks base_color; spec-gloss is read"));
+}
+
 TEST(ColorSpaceDecision, IsSrgbForPicturesLinearForExrAndDataForNumbers) {
   const FoundSet set = only_set({"a_color.png", "a_roughness.png", "a_normal.exr"});
   EXPECT_EQ(find(set, Slot::BaseColor)->color_space, "srgb_rec709_scene");

@@ -138,11 +138,35 @@ TEST(Resolving, ResamplesToTheLargestMapAndSaysSo) {
   EXPECT_THAT(resolved.notes, Contains("normal 2x2 resampled to 8x8"));
 }
 
-TEST(Resolving, WarnsOfMapsOfAnotherAspect) {
-  const Resolved resolved = resolve({{Slot::BaseColor, image({8, 8}, {0.5f, 0.5f, 0.5f})},
-                                     {Slot::Roughness, image({8, 4}, {0.3f})}},
-                                    {});
-  EXPECT_THAT(resolved.warnings, Contains(HasSubstr("another aspect")));
+TEST(Resolving, RefusesMapsWhoseAspectsDifferAndNamesBoth) {
+  try {
+    resolve({{Slot::BaseColor, image({8, 8}, {0.5f, 0.5f, 0.5f}, "c.png")},
+             {Slot::Roughness, image({8, 4}, {0.3f}, "r.png")}},
+            {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::Input);
+    EXPECT_THAT(error.what(), HasSubstr("base_color c.png (8x8)"));
+    EXPECT_THAT(error.what(), HasSubstr("roughness r.png (8x4) cannot belong together"));
+  }
+  const Resolved rounded = resolve({{Slot::BaseColor, image({333, 100}, {0.5f, 0.5f, 0.5f})},
+                                    {Slot::Roughness, image({83, 25}, {0.3f})},
+                                    {Slot::Metallic, image({1, 1}, {0.3f})}},
+                                   {});
+  EXPECT_EQ(rounded.svbrdf.size, (Size{333, 100})) << "rounding to whole texels is no difference";
+}
+
+TEST(Resolving, RefusesAHeightMapInThePlaceOfNormals) {
+  SlotMap relief = image({4, 4}, {0.2f, 0.2f, 0.2f}, "bump.png");
+  for (Layer& layer : relief.image.layers) layer.plane.at(1, 1) = 0.7f;
+  try {
+    resolve({{Slot::Normal, relief}}, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::Input);
+    EXPECT_THAT(error.what(), HasSubstr("bump.png"));
+    EXPECT_THAT(error.what(), HasSubstr("height map in the place of normals"));
+  }
 }
 
 TEST(Resolving, IsUntouchedByMapsThatNothingReads) {
