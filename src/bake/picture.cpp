@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kiln/material/anisotropy.h"
+
 namespace kiln {
 namespace {
 
@@ -25,9 +27,25 @@ void add_bilinear(const Svbrdf& maps, double u, double v, double weight, const P
   const int y0 = wrap(top, maps.size.height), y1 = wrap(top + 1, maps.size.height);
   const auto planes = planes_of(maps);
   for (int p = range.first; p < range.last; ++p) {
+    if (planes[p]->empty()) continue;
     const float *a = planes[p]->row(y0), *b = planes[p]->row(y1);
     const double value = std::lerp(std::lerp(a[x0], a[x1], tx), std::lerp(b[x0], b[x1], tx), ty);
     values[p] += static_cast<float>(weight * value);
+  }
+}
+
+// Anisotropy becomes a vector of twice its angle, which can be averaged: lobes at angle and angle +
+// pi are the same.
+void turn_into_vectors(Svbrdf& maps) {
+  if (maps.anisotropy.empty()) return;
+  if (maps.anisotropy_angle.empty()) maps.anisotropy_angle = Plane(maps.size);
+  for (int y = 0; y < maps.size.height; ++y) {
+    float *a = maps.anisotropy.row(y), *angle = maps.anisotropy_angle.row(y);
+    for (int x = 0; x < maps.size.width; ++x) {
+      const float strength = std::clamp(a[x], 0.0f, most_anisotropic);
+      a[x] = strength * std::cos(2 * angle[x]);
+      angle[x] = strength * std::sin(2 * angle[x]);
+    }
   }
 }
 
@@ -50,7 +68,9 @@ Picture::Picture(const Svbrdf& maps, const Options& options)
       exact_(!options.ball && options.size == maps.size),
       levels_(exact_ ? std::vector<Svbrdf>{maps} : mip_chain(maps)),
       cos_rotate_(std::cos(options.rotate_deg * pi / 180)),
-      sin_rotate_(std::sin(options.rotate_deg * pi / 180)) {}
+      sin_rotate_(std::sin(options.rotate_deg * pi / 180)) {
+  for (Svbrdf& level : levels_) turn_into_vectors(level);
+}
 
 // Turning the environment one way is turning everything else the other way.
 Vec3<double> Picture::to_environment(const Vec3<double>& w) const {
@@ -129,7 +149,9 @@ void Picture::fill(int x, int y, int position, TexelBlock<F>& texels,
     float values[svbrdf_planes];
     if (exact_) {
       const auto planes = planes_of(maps);
-      for (int p = 0; p < svbrdf_planes; ++p) values[p] = planes[p]->row(y)[column];
+      for (int p = 0; p < svbrdf_planes; ++p) {
+        values[p] = planes[p]->empty() ? 0 : planes[p]->row(y)[column];
+      }
     } else {
       const double px = column + position_x[position], py = y + position_y[position];
       const Spot spot = options_.ball ? spot_of_ball(px, py)

@@ -38,6 +38,8 @@ class Picture {
   /// Share of the pixel that the surface covers [0..1].
   float coverage(int x, int y) const;
 
+  bool is_anisotropic() const { return !levels_.front().anisotropy.empty(); }
+
   /// Map values and placement of lane_count<F> pixels from x on. Pixels off the ball read its rim.
   template <class F>
   void fill(int x, int y, int position, TexelBlock<F>& texels, Placement<F>& placement) const;

@@ -10,6 +10,7 @@
 #include "preview_contact.h"
 #include "preview_difference.h"
 #include "preview_render.h"
+#include "preview_stages.h"
 
 namespace kiln {
 namespace {
@@ -70,8 +71,13 @@ std::vector<std::pair<std::string, std::string>> describe_file(const Settings& s
 }
 
 // What the chosen models make of the picture that the user may not expect.
-void add_model_notes(const Settings& settings, const ShadingInputs& inputs, Baked& baked) {
+void add_model_notes(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+                     Baked& baked) {
   const SurfaceChoice& surface = inputs.surface;
+  if (!maps.anisotropy.empty() && (is_glass(inputs) || !make_stages(surface).anisotropic)) {
+    baked.notes.push_back(fmt::format("anisotropy is not read: {} has one width",
+                                      is_glass(inputs) ? "glass" : surface.distribution));
+  }
   if (is_glass(inputs)) {
     baked.notes.emplace_back("glass is clear: colours, metallic and occlusion are not read");
     return;
@@ -186,7 +192,7 @@ Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients
     throw Error(Fault::Usage, "nothing to light it with: expected an environment, lights or both");
   }
   Baked baked;
-  add_model_notes(settings, inputs, baked);
+  add_model_notes(settings, *ingredients.material, inputs, baked);
   Artifact& made = baked.artifacts.emplace_back();
   made.attributes = describe_file(settings, inputs);
   Rendered whole;

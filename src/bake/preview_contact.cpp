@@ -79,12 +79,16 @@ std::vector<Thumbnail> thumbnails_of(const Svbrdf& s) {
   const auto three = [](const std::array<Plane, 3>& p) {
     return std::array<const Plane*, 3>{&p[0], &p[1], &p[2]};
   };
-  return {
+  std::vector<Thumbnail> all = {
       {"diffuse colour", three(s.diffuse_color), Shown::Light},
       {"F0", three(s.f0), Shown::Light},
       {"roughness " + range_text(s.roughness), one(s.roughness), Shown::Number},
       {"normal, +Y up", three(s.normal), Shown::Direction},
       {"occlusion " + range_text(s.ambient_occlusion), one(s.ambient_occlusion), Shown::Number}};
+  if (!s.anisotropy.empty()) {
+    all.push_back({"anisotropy " + range_text(s.anisotropy), one(s.anisotropy), Shown::Number});
+  }
+  return all;
 }
 
 Layers painted(const Thumbnail& thumbnail, int edge) {

@@ -9,7 +9,7 @@ using F = WideFloat;
 
 template <template <class> class Distribution>
 Distribution<F> distribution_of(const StagedPoint& point) {
-  return Distribution<F>::make(point.alpha, point.alpha, F(point.shape));
+  return Distribution<F>::make(point.alpha_x, point.alpha_y, F(point.shape));
 }
 
 template <template <class> class Distribution>
@@ -65,6 +65,7 @@ void choose_lobe(const SurfaceChoice& surface, SurfaceStages& stages) {
               stages.sample_normal = sample_normal<Distribution>;
               stages.add_lobe = add_lobe<Distribution, Masking>;
               stages.shape = shape_or_default<Distribution>(surface.distribution_shape);
+              stages.anisotropic = Distribution<F>::anisotropic;
             });
 }
 

@@ -57,7 +57,8 @@ struct FusedShader {
   }
   Vec3<F> approximation(const Point& point) const {
     const Vec3<F> normal = point.frame.z;
-    const Vec3<F> mirrored{-point.wo.x, -point.wo.y, point.wo.z};
+    const Ggx<F>& ggx = point.surface.ggx;
+    const Vec3<F> mirrored = engine_direction(point.wo, ggx.alpha_x, ggx.alpha_y, point.roughness);
     const Vec3<F> specular = point.surface.specular_reflectance(point.terms_o);
     const F left = clamp(F(1) - point.surface.greatest.reflectance(point.terms_o), F(0), F(1));
     const Vec3<F> diffuse = point.surface.diffuse.albedo(point.wo.z) * left * point.occlusion;

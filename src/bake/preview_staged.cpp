@@ -88,15 +88,17 @@ StagedPoint make_staged_point(const TexelValues<F>& texel, const Placement<F>& p
                               const AlbedoTable& table, const SurfaceStages& stages) {
   StagedPoint point;
   point.roughness = clamp(texel.roughness, F(0.0f), F(1.0f));
-  point.alpha = to_alpha(point.roughness);
   point.shape = stages.shape;
   point.occlusion = texel.occlusion;
   point.diffuse_color = texel.diffuse_color;
   const WideVec normal = bend_toward(placement.frame.to_world(texel.normal), placement.to_viewer);
-  point.frame = frame_around(normal);
+  const LobeFrame<F> lobe = lobe_frame(placement.frame, normal, texel, point.roughness);
+  point.frame = lobe.frame;
+  point.alpha_x = lobe.alpha_x;
+  point.alpha_y = lobe.alpha_y;
   point.wo = point.frame.to_local(placement.to_viewer);
   point.wo.z = max(point.wo.z, F(1e-3f));
-  point.row = table.row(point.roughness);
+  point.row = table.row(lobe.table_roughness);
   point.terms_o = {table.terms(point.row, point.wo.z), table.edge(point.row, point.wo.z)};
   point.average = average_terms(table, point.row);
   point.bounded_average = table.average_bounded(point.row);
@@ -131,7 +133,8 @@ WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
 }
 
 WideVec approximate(const StagedPoint& point, const SurfaceStages& stages, const Light& light) {
-  const WideVec mirrored{-point.wo.x, -point.wo.y, point.wo.z};
+  const WideVec mirrored =
+      engine_direction(point.wo, point.alpha_x, point.alpha_y, point.roughness);
   const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
   const WideVec diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
   const WideVec specular = light.chain->lookup(point.frame.to_world(mirrored), point.roughness);

@@ -29,7 +29,8 @@ struct DirectionTerms {
 struct StagedPoint {
   Frame<WideFloat> frame;  ///< shading frame, +z the bent normal
   Vec3<WideFloat> wo;
-  WideFloat roughness, alpha, occlusion;
+  WideFloat roughness, occlusion;
+  WideFloat alpha_x, alpha_y;  ///< along the frame's axes
   Vec3<WideFloat> diffuse_color;
   std::array<FresnelChannel<WideFloat>, 3> fresnel;
   std::array<ChannelTerms, 3> channels;
@@ -87,6 +88,7 @@ struct SurfaceStages {
   void (*couple)(const StagedPoint& point, DirectionBlock& block) = nullptr;
   FresnelChannel<float> numbers = {};
   float shape = 0;
+  bool anisotropic = true;  ///< the distribution has two widths
 };
 
 /// @error Fault::Usage for names that are not listed or do not fit each other

@@ -16,9 +16,10 @@ struct TexelValues {
   F roughness;
   Vec3<F> normal;  ///< tangent space, unit
   F occlusion;
+  Vec2<F> anisotropy;  ///< a (cos 2 angle, sin 2 angle), a and angle as in Svbrdf; may be mixed
 };
 
-inline constexpr int svbrdf_planes = 11;
+inline constexpr int svbrdf_planes = 13;
 
 /// Planes [first, last) of them.
 struct PlaneRange {
@@ -26,7 +27,7 @@ struct PlaneRange {
 };
 inline constexpr PlaneRange relief_planes{6, 10};  ///< roughness and normal
 
-/// The planes of an SVBRDF in one order, for loops over all of them.
+/// The planes of an SVBRDF in one order, for loops over all of them. Empty ones hold 0.
 inline std::array<const Plane*, svbrdf_planes> planes_of(const Svbrdf& s) {
   return {&s.diffuse_color[0],
           &s.diffuse_color[1],
@@ -38,7 +39,9 @@ inline std::array<const Plane*, svbrdf_planes> planes_of(const Svbrdf& s) {
           &s.normal[0],
           &s.normal[1],
           &s.normal[2],
-          &s.ambient_occlusion};
+          &s.ambient_occlusion,
+          &s.anisotropy,
+          &s.anisotropy_angle};
 }
 
 /// Values of as many texels as a vector has lanes: [plane][lane].
@@ -55,7 +58,8 @@ TexelValues<F> values_of(const TexelBlock<F>& block) {
           {at(3), at(4), at(5)},
           at(6),
           select(squared > F(1e-6), n * (F(1) / sqrt(max(squared, F(1e-6)))), up),
-          at(10)};
+          at(10),
+          {at(11), at(12)}};
 }
 
 }  // namespace kiln

@@ -15,7 +15,7 @@ namespace kiln {
 namespace {
 
 struct RawGlobals {
-  std::string threads, isa = "auto", color = "auto";
+  std::string threads, memory, isa = "auto", color = "auto";
   bool help = false;  ///< never read: asks_for_help() looks for it first
 };
 
@@ -25,6 +25,7 @@ void declare_globals(CLI::App& app, Globals& globals, RawGlobals& raw) {
   app.add_flag("-q,--quiet", globals.quiet)->group(every_verb);
   app.add_flag("-v,--verbose", globals.verbose)->group(every_verb);
   app.add_option("-j,--threads", raw.threads)->group(every_verb);
+  app.add_option("--max-memory", raw.memory)->group(every_verb);
   app.add_option("--ocio", globals.ocio)->group(every_verb);
   app.add_option("--isa", raw.isa)->group(every_verb);
   app.add_option("--color", raw.color)->group(every_verb);
@@ -38,6 +39,7 @@ void check_globals(Globals& globals, const RawGlobals& raw) {
     facts.max = 4096;
     globals.threads = static_cast<int>(parse_integer(facts, raw.threads));
   }
+  if (!raw.memory.empty()) globals.max_memory = parse_bytes("--max-memory", raw.memory);
   if (const std::string isa = kebab(raw.isa); isa != "auto" && isa != "avx2") {
     throw Error(Fault::Usage,
                 fmt::format("--isa: found '{}', this build holds avx2 (or auto)", raw.isa));

@@ -82,7 +82,8 @@ std::string help_of(const Verb& verb, const CLI::App& app) {
   text += named_options(app, of_the_surface, "surface (kiln list)", "kiln list surface");
   text +=
       "\nOf every verb: -h, --help; --json, the result for machines; -q, --quiet; -v, --verbose;\n"
-      "-j, --threads N; --ocio FILE, a config over the file's and $OCIO; --isa auto|avx2;\n"
+      "-j, --threads N; --max-memory SIZE; --ocio FILE, a config over the file's; --isa "
+      "auto|avx2;\n"
       "--color auto|always|never\n";
   return text;
 }

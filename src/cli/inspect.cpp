@@ -66,15 +66,16 @@ std::string assumed_space(const PlannedMap& map, PixelType type) {
                                                              : "srgb_rec709_scene";
 }
 
-Inspected inspect_file(const fs::path& path) {
+Inspected inspected_image(const fs::path& path, ImageFile file) {
   Inspected inspected;
-  ImageFile file = read_image(path);
   inspected.file = path.string();
   inspected.facts = std::move(file.facts);
   inspected.oddities = count_oddities(file.image);
   for (const Layer& layer : file.image.layers) inspected.channels.push_back(measure(layer));
   return inspected;
 }
+
+Inspected inspect_file(const fs::path& path) { return inspected_image(path, read_image(path)); }
 
 std::vector<Inspected> inspect_set(const PlannedSet& set) {
   if (set.fault) throw Error(*set.fault);
@@ -84,7 +85,11 @@ std::vector<Inspected> inspect_set(const PlannedSet& set) {
     const std::string path = map.path.string();
     auto found = std::find_if(list.begin(), list.end(),
                               [&](const Inspected& other) { return other.file == path; });
-    if (found == list.end()) found = list.insert(list.end(), inspect_file(path));
+    if (found == list.end()) {
+      found = list.insert(list.end(),
+                          inspected_image(map.path, map.embedded.bytes ? read_image(map.embedded)
+                                                                       : read_image(map.path)));
+    }
     if (map.if_present && !has_channels(found->facts.channels, map.channels)) continue;
     found->uses.push_back({fmt::format("{}[{}]", slot_name(map.slot), map.channels), map.reason,
                            assumed_space(map, found->facts.type)});
@@ -145,7 +150,7 @@ struct InspectArguments {
 bool is_material(const fs::path& path) {
   const std::string extension = path.extension().string();
   return fs::is_directory(path) || extension == ".yaml" || extension == ".yml" ||
-         extension == ".json";
+         extension == ".json" || is_material_document(path);
 }
 
 std::vector<Inspected> inspect_material(const MaterialOptions& options, const Globals& globals) {

@@ -8,7 +8,8 @@
 
 namespace kiln {
 
-/// A MATERIAL on the command line: a folder of maps or a material file, and how to read it.
+/// A MATERIAL on the command line: a folder of maps, a material file, or a glTF or MaterialX
+/// document, and how to read it.
 struct MaterialOptions {
   std::string path, name;
   std::vector<std::string> naming;

@@ -137,7 +137,8 @@ int run_one_task(Pipeline pipeline, const std::string& output, const Globals& gl
   const Interruption interruption;
   pipeline.color.config = chosen_config(globals.ocio, pipeline.color.config);
   const fs::path folder = name_output(pipeline.bakes.at(0), output);
-  const Plan plan = make_plan(pipeline, folder);
+  Plan plan = make_plan(pipeline, folder);
+  plan.max_memory = globals.max_memory;
   Watcher watcher = console_watcher(ProgressStyle::None, globals);
   watcher.loaded = {};
   watcher.lit = {};

@@ -79,7 +79,8 @@ int run(const RunArguments& arguments, const Globals& globals) {
   const std::filesystem::path output = arguments.output.empty()
                                            ? default_output(pipeline.file)
                                            : std::filesystem::path(arguments.output);
-  const Plan plan = only(make_plan(pipeline, output), arguments.only);
+  Plan plan = only(make_plan(pipeline, output), arguments.only);
+  if (globals.max_memory > 0) plan.max_memory = globals.max_memory;
   Watcher watcher = console_watcher(style, globals);
   if (arguments.dry_run) {
     for (const std::string& warning : plan.warnings) watcher.warned(warning);

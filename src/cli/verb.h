@@ -13,7 +13,8 @@ struct Globals {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;  ///< 0: as many as the process may use
+  int threads = 0;           ///< 0: as many as the process may use
+  long long max_memory = 0;  ///< [byte] that the process may take; 0: no limit
   std::string ocio;
   std::string color = "auto";
 };

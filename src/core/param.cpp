@@ -45,6 +45,28 @@ long long parse_integer(const ParamFacts& facts, const std::string& text) {
   return parse_whole<long long>(facts, text, "a whole number");
 }
 
+long long parse_bytes(const std::string& name, const std::string& text) {
+  constexpr std::string_view letters = "KMGT";
+  ParamFacts facts;
+  facts.name = name;
+  const char* end = text.data() + text.size();
+  double number = 0;
+  const auto read = std::from_chars(text.data(), end, number);
+  std::string unit(read.ptr, end);
+  std::erase(unit, ' ');
+  long long factor = 1;
+  const size_t power = unit.empty() ? std::string_view::npos : letters.find(unit[0]);
+  const bool known = unit.empty() || unit == "B" ||
+                     (power != std::string_view::npos &&
+                      (unit.size() == 1 || unit.substr(1) == "iB" || unit.substr(1) == "B"));
+  if (power != std::string_view::npos) factor = 1LL << (10 * (power + 1));
+  if (read.ec != std::errc() || !known || !(number > 0) ||
+      number * static_cast<double>(factor) > 1e18) {
+    refuse(facts, text, "a size, for instance 2GiB or 512MiB");
+  }
+  return static_cast<long long>(number * static_cast<double>(factor));
+}
+
 bool parse_flag(const ParamFacts& facts, const std::string& text) {
   const std::string word = kebab(text);
   if (word == "true" || word == "yes" || word == "on" || word == "1") return true;

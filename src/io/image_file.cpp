@@ -32,6 +32,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* openexr_in_memory =
+    "OpenEXR images are read from files of their own, not from within others";
+
 std::string format_of(const fs::path& path) {
   return io::format_by_contents(path, io::first_bytes(path, io::signature_length));
 }
@@ -187,15 +190,19 @@ FileFacts inspect_image(const fs::path& path) {
     const ReadLimits limits;
     if (format == "openexr") return io::inspect_openexr(path, limits);
     const io::FileContents contents(path);
-    const io::ByteView bytes = contents.view();
-    if (format == "hdr") return io::inspect_hdr(bytes, limits);
-    if (format == "npy") return io::inspect_npy(bytes, limits);
-    if (format == "env") return io::inspect_env(bytes, limits);
-    if (const auto texels = io::stored_texels(format, bytes)) {
-      return io::facts_of_texels(*texels, bytes, limits);
-    }
-    return io::inspect_by_openimageio(format, bytes, limits);
+    return io::facts_of_bytes(contents.view(), format, limits);
   });
+}
+
+FileFacts io::facts_of_bytes(ByteView bytes, const std::string& format, const ReadLimits& limits) {
+  if (format == "openexr") throw Error(Fault::Input, openexr_in_memory);
+  if (format == "hdr") return inspect_hdr(bytes, limits);
+  if (format == "npy") return inspect_npy(bytes, limits);
+  if (format == "env") return inspect_env(bytes, limits);
+  if (const auto texels = stored_texels(format, bytes)) {
+    return facts_of_texels(*texels, bytes, limits);
+  }
+  return inspect_by_openimageio(format, bytes, limits);
 }
 
 ImageFile read_image(const fs::path& path, const ReadLimits& limits,
@@ -214,16 +221,20 @@ io::Volume io::read_volume(const fs::path& path, const std::string& format,
                            const Reading& reading) {
   if (format == "openexr") return {read_openexr(path, reading)};
   const FileContents contents(path);
-  const ByteView bytes = contents.view();
   Reading in_pieces = reading;
   in_pieces.let_go = [&] { contents.let_go(); };
-  if (format == "hdr") return {read_hdr(bytes, in_pieces)};
+  return volume_of_bytes(contents.view(), format, in_pieces);
+}
+
+io::Volume io::volume_of_bytes(ByteView bytes, const std::string& format, const Reading& reading) {
+  if (format == "openexr") throw Error(Fault::Input, openexr_in_memory);
+  if (format == "hdr") return {read_hdr(bytes, reading)};
   if (format == "npy") return read_npy_image(bytes, reading.limits);
   if (format == "env") return {read_env(bytes, reading.limits)};
   if (const auto texels = stored_texels(format, bytes)) {
     return read_texels(*texels, bytes, reading.limits);
   }
-  return {read_by_openimageio(format, bytes, in_pieces)};
+  return {read_by_openimageio(format, bytes, reading)};
 }
 
 const std::vector<WritableFormat>& writable_formats() {

@@ -68,6 +68,9 @@ std::unique_ptr<io::RowSource> open_rows(const fs::path& path,
 ImageRows::ImageRows(const fs::path& path, const std::vector<std::string>& channels,
                      const ReadLimits& limits)
     : path_(path), source_(open_rows(path, channels, limits)) {}
+ImageRows::ImageRows(const ImageBytes& bytes, const std::vector<std::string>& channels,
+                     const ReadLimits& limits)
+    : path_(bytes.name), source_(std::make_unique<HeldRows>(read_image(bytes, limits, channels))) {}
 ImageRows::~ImageRows() = default;
 ImageRows::ImageRows(ImageRows&&) noexcept = default;
 ImageRows& ImageRows::operator=(ImageRows&&) noexcept = default;

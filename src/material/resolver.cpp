@@ -280,6 +280,7 @@ Svbrdf Resolver::rows(SlotMaps maps, Repairs& repairs) const {
   decoding.range = settings_.normal_range;
   if (heads_.count(Slot::Normal)) decoding.strength = heads_.at(Slot::Normal).decoding.scale[0];
   work.svbrdf.size = size;
+  work.svbrdf.wrap = settled(settings_.wrap);
   work.svbrdf.normal = read_normal(work, normal_ ? normal_->decoding : decoding);
   work.svbrdf.ambient_occlusion = std::move(read_slot(work, Slot::AmbientOcclusion)[0]);
   work.svbrdf.roughness = read_roughness(work);

@@ -70,6 +70,7 @@ std::array<Plane, 3> halve_normal(const std::array<Plane, 3>& normal) {
 Svbrdf halve(const Svbrdf& svbrdf) {
   Svbrdf half;
   half.name = svbrdf.name;
+  half.wrap = svbrdf.wrap;
   half.diffuse_color = halve_each(svbrdf.diffuse_color);
   half.f0 = halve_each(svbrdf.f0);
   if (svbrdf.anisotropy.empty()) {

@@ -131,6 +131,8 @@ const Params<WorkflowSettings>& workflow_params() {
                  "8-bit code of a normal map that means zero slope"),
       word_param("normal_range", &WorkflowSettings::normal_range, words_of(normal_range_names),
                  "normal maps store [0,1] (unsigned) or [-1,1] (signed)"),
+      word_param("wrap", &WorkflowSettings::wrap, words_of(wrap_choice_names),
+                 "what lies beyond the edges; auto: as the material's file says, else repeat"),
   };
   return params;
 }

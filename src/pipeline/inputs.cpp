@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kiln/parallel/stages.h"
+#include "memory.h"
 #include "set_reader.h"
 
 namespace kiln {
@@ -38,24 +39,28 @@ void place(Svbrdf& band, int first, Svbrdf& whole) {
 
 }  // namespace
 
-LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorConfig& config) {
+LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorConfig& config,
+                   Size wanted, long long max_memory) {
   SetReader reader(set, color, config, {.resolved = true});
+  const Size size = reader.bands().size;
+  const int halvings = halvings_of(size, wanted);
+  require_memory(bytes_of_material(size, halvings), max_memory, "set " + set.name);
   LoadedSet loaded;
   Svbrdf& whole = loaded.svbrdf;
   whole.name = set.name;
-  whole.size = reader.bands().size;
+  whole.size = {size.width >> halvings, size.height >> halvings};
+  whole.wrap = reader.bands().wrap;
   if (reader.bands().find(Slot::Anisotropy)) whole.anisotropy = Plane(whole.size);
   if (reader.bands().find(Slot::AnisotropyAngle)) whole.anisotropy_angle = Plane(whole.size);
   for (Plane* plane : planes_of(whole)) *plane = Plane(whole.size);
-  const int bands = (whole.size.height + rows_of_band - 1) / rows_of_band;
+  const int bands = (size.height + rows_of_band - 1) / rows_of_band;
   run_stages<MapRows>(
       bands, bands_at_once,
-      [&](int i) {
-        return reader.next(std::min(rows_of_band, whole.size.height - i * rows_of_band));
-      },
+      [&](int i) { return reader.next(std::min(rows_of_band, size.height - i * rows_of_band)); },
       [&](int, MapRows& rows) {
         Svbrdf band = reader.bands().svbrdf(rows);
-        place(band, rows.rows.first, whole);
+        for (int i = 0; i < halvings; ++i) band = halve(band);
+        place(band, rows.rows.first >> halvings, whole);
       },
       [](int, MapRows&) {});
   loaded.record = reader.record();

@@ -17,7 +17,11 @@ struct LoadedSet {
 /// leaves numbers alone.
 /// @error the set's own fault; Fault::Input naming every missing file at once, or the unreadable
 /// one
-LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorConfig& config);
+///
+/// @param wanted      so many texels each way are enough (Needs::material_for)
+/// @param max_memory  [byte]; 0: no limit
+LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorConfig& config,
+                   Size wanted, long long max_memory);
 
 struct LoadedLight {
   LightMade made;

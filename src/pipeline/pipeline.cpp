@@ -118,12 +118,16 @@ SetChoice read_set(const Node& node, const Reading& reading) {
   set.name = text_at(node, "name");
   with(node, "glob", [&](const Node& at) { set.glob = joined(reading.folder, at.text).string(); });
   with(node, "path", [&](const Node& at) { set.path = joined(reading.folder, at.text); });
+  set.material = text_at(node, "material");
   with(node, "maps", [&](const Node& maps) { set.maps = read_maps(maps, reading); });
   with(node, "naming", [&](const Node& names) { set.naming = scalars(names); });
   read_reading(node, set);
   const int sources = int{node.find("glob") != nullptr} + int{node.find("path") != nullptr} +
                       int{node.find("maps") != nullptr};
   if (sources != 1) reading.mistakes.add(node.place, "a set needs one of: glob, path, maps");
+  if (!set.material.empty() && !is_material_document(set.path)) {
+    reading.mistakes.add(node.place, "a `material` is one of a .gltf, .glb or .mtlx file");
+  }
   if (!set.glob.empty() && !set.name.empty()) {
     reading.mistakes.add(node.place, "a glob makes many sets and cannot have one name");
   }
@@ -211,6 +215,12 @@ Pipeline read_root(const Node& root, const Reading& reading) {
   Pipeline pipeline;
   pipeline.name = text_at(root, "name");
   with(root, "color", [&](const Node& node) { pipeline.color = read_color(node, reading); });
+  with(root, "limits", [&](const Node& node) {
+    const std::string memory = text_at(node, "memory");
+    if (memory.empty()) return;
+    attempt(reading.mistakes, node.place,
+            [&] { pipeline.max_memory = parse_bytes("memory", memory); });
+  });
   with(root, "environment", [&](const Node& node) {
     for (const Entry& entry : node.entries) {
       pipeline.environments.push_back(read_environment(entry, reading));

@@ -214,6 +214,7 @@ Plan make_plan(const Pipeline& pipeline, const fs::path& output) {
   plan.output = output;
   plan.color = pipeline.color;
   plan.color.config = chosen_config("", pipeline.color.config);
+  plan.max_memory = pipeline.max_memory;
   plan.material = pipeline.material;
   plan.environments = pipeline.environments;
 

@@ -119,6 +119,12 @@ int count(const Report& report, Status status) {
 
 int exit_code(const Report& report) {
   if (report.signal != 0) return 128 + report.signal;
+  const bool none_fits =
+      !report.tasks.empty() &&
+      std::all_of(report.tasks.begin(), report.tasks.end(), [](const TaskRecord& task) {
+        return task.fault && task.fault->fault() == Fault::Memory;
+      });
+  if (none_fits) return exit_code(Fault::Memory);
   return count(report, Status::Failed) > 0 ? 1 : 0;
 }
 
@@ -172,6 +178,12 @@ std::vector<std::string> retry_patterns(const Report& report) {
   return patterns;
 }
 
+namespace {
+
+Json memory_json(std::optional<long long> bytes) { return bytes ? Json(*bytes) : Json(nullptr); }
+
+}  // namespace
+
 std::string dry_run_table(const Plan& plan) {
   size_t set_width = 0, bake_width = 0;
   for (const Task& task : plan.tasks) {
@@ -180,8 +192,11 @@ std::string dry_run_table(const Plan& plan) {
   }
   std::string text;
   for (const Task& task : plan.tasks) {
-    text += fmt::format("{:<{}}  {:<{}}  new  {}{}\n", set_of(plan, task), set_width, task.bake,
-                        bake_width, task.out, task.product == Product::Folder ? "/" : "");
+    const auto bytes = predicted_memory(plan, task);
+    const std::string memory = bytes ? fmt::format("{} MiB", (*bytes >> 20) + 1) : "-";
+    text +=
+        fmt::format("{:<{}}  {:<{}}  new  {:>9}  {}{}\n", set_of(plan, task), set_width, task.bake,
+                    bake_width, memory, task.out, task.product == Product::Folder ? "/" : "");
   }
   return text + fmt::format("{} tasks, {} texture sets\n", plan.tasks.size(), plan.sets.size());
 }
@@ -192,7 +207,8 @@ std::string dry_run_json(const Plan& plan) {
     tasks.push_back({{"bake", task.bake},
                      {"set", task.set ? plan.sets[*task.set].name : ""},
                      {"out", task.out},
-                     {"reason", "new"}});
+                     {"reason", "new"},
+                     {"memory_bytes", memory_json(predicted_memory(plan, task))}});
   }
   return dumped({{"software", software()}, {"tasks", tasks}, {"warnings", plan.warnings}});
 }

@@ -113,9 +113,21 @@ class Runner {
   }
 
   LoadedSet load(const PlannedSet& set) {
-    LoadedSet loaded = load_set(set, plan_.color, config_);
+    LoadedSet loaded = load_set(set, plan_.color, config_, wanted_of(set), plan_.max_memory);
     tell(loaded.record);
     return loaded;
+  }
+
+  // What the most demanding of its tasks wants.
+  Size wanted_of(const PlannedSet& set) const {
+    Size wanted{1, 1};
+    for (const Task& task : plan_.tasks) {
+      if (!task.needs.material || &plan_.sets[*task.set] != &set) continue;
+      const Size one = task.needs.material_for;
+      if (one.width <= 0) return {};
+      wanted = {std::max(wanted.width, one.width), std::max(wanted.height, one.height)};
+    }
+    return wanted;
   }
 
   LoadedLight load(size_t environment) {

@@ -100,6 +100,7 @@ BlockFacts pipeline_block() {
           {required(version_key()), text("name", "name of the pipeline"),
            shaped("vars", Shape::Named, "", "texts that \"{name}\" stands for elsewhere"),
            shaped("color", Shape::Block, "color", "colour management"),
+           shaped("limits", Shape::Block, "limits", "what a run may take"),
            shaped("environment", Shape::Named, "environment", "environments, by name"),
            shaped("sets", Shape::Blocks, "set", "texture sets"),
            shaped("material", Shape::Block, "material", "the model that the maps feed"),
@@ -113,6 +114,12 @@ BlockFacts color_block() {
            text("working", "colour space that everything is computed in", "lin_rec709_scene"),
            word("on_conversion", {"allow", "warn", "refuse"}, "warn",
                 "what to do when a map's own colour tag contradicts the space it is read in")}};
+}
+
+BlockFacts limits_block() {
+  return {"limits",
+          "what a run may take",
+          {text("memory", "of the whole process: 4GiB; bakes read narrower bands to keep it")}};
 }
 
 BlockFacts environment_block() {
@@ -135,12 +142,15 @@ BlockFacts environment_block() {
 }
 
 BlockFacts set_block() {
-  BlockFacts block{"set",
-                   "one texture set, or one per folder that a pattern matches",
-                   {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
-                    text("path", "one folder, a set"), text("name", "name of the set"),
-                    shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
-                    listed(word("naming", naming_words(), "", "naming schemes to try, in order"))}};
+  BlockFacts block{
+      "set",
+      "one texture set, or one per folder that a pattern matches",
+      {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
+       text("path", "one folder, a set; or a glTF or MaterialX file, a set a material"),
+       text("material", "the one material of that file that is wanted"),
+       text("name", "name of the set"),
+       shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
+       listed(word("naming", naming_words(), "", "naming schemes to try, in order"))}};
   return with_reading_keys(std::move(block));
 }
 
@@ -199,8 +209,8 @@ BlockFacts material_file_block() {
 
 const std::vector<BlockFacts>& all_blocks() {
   static const std::vector<BlockFacts> blocks = {
-      pipeline_block(), color_block(),    environment_block(), set_block(),
-      map_block(),      material_block(), any_bake_block(),    material_file_block()};
+      pipeline_block(), color_block(),    limits_block(),   environment_block(),  set_block(),
+      map_block(),      material_block(), any_bake_block(), material_file_block()};
   return blocks;
 }
 

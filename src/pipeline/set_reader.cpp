@@ -21,7 +21,7 @@ void require_files(const std::vector<PlannedMap>& maps) {
   std::string missing;
   std::error_code failure;
   for (const PlannedMap& map : maps) {
-    if (map.path.empty() || fs::exists(map.path, failure)) continue;
+    if (map.path.empty() || map.embedded.bytes || fs::exists(map.path, failure)) continue;
     missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ", map.path.string(),
                            slot_name(map.slot));
   }
@@ -42,6 +42,10 @@ std::vector<std::string> wanted_channels(const fs::path& path, const FileFacts& 
     wanted.insert(names.begin(), names.end());
   }
   return {wanted.begin(), wanted.end()};
+}
+
+ImageRows rows_of(const PlannedMap& map, const std::vector<std::string>& channels = {}) {
+  return map.embedded.bytes ? ImageRows(map.embedded, channels) : ImageRows(map.path, channels);
 }
 
 Layers last_rows(const Layers& image, int count) {
@@ -88,12 +92,14 @@ SetReader::SetReader(const PlannedSet& set, const ColorChoice& color, const Colo
   decide_size(needs);
   bands_.name = set.name;
   bands_.working = color.working;
+  bands_.wrap = settled(set.reading.wrap);
+  bands_.alpha_cutoff = set.alpha_cutoff;
   bands_.stored = [this](const MapRows& rows) { return stored(rows); };
   bands_.linear = [this](const MapRows& rows) { return linear(rows); };
   bands_.svbrdf = [this](const MapRows& rows) { return svbrdf(rows); };
   bands_.whole = [this](Slot slot) {
     const Map& map = *find(slot);
-    ImageRows rows(map.planned.path);
+    ImageRows rows = rows_of(map.planned);
     return pick_slot(rows.next(rows.facts().size.height), slot, map.planned.channels);
   };
 }
@@ -119,7 +125,7 @@ void SetReader::open(const std::vector<PlannedMap>& maps) {
       add_constant(map);
       continue;
     }
-    const size_t file = file_of(map.path, maps);
+    const size_t file = file_of(map, maps);
     const FileFacts& facts = files_[file].rows.facts();
     if (map.if_present && !has_channels(facts.channels, map.channels)) continue;
     Map& added = maps_.emplace_back(Map{map, file});
@@ -146,12 +152,13 @@ void SetReader::add_constant(const PlannedMap& map) {
   record_.maps.push_back({std::string(slot_name(map.slot)), "constant", "", map.reason, color});
 }
 
-size_t SetReader::file_of(const fs::path& path, const std::vector<PlannedMap>& maps) {
+size_t SetReader::file_of(const PlannedMap& map, const std::vector<PlannedMap>& maps) {
+  const fs::path& path = map.path;
   for (size_t i = 0; i < files_.size(); ++i) {
     if (files_[i].path == path) return i;
   }
-  const FileFacts facts = inspect_image(path);
-  files_.push_back({path, ImageRows(path, wanted_channels(path, facts, maps)), 0, {}});
+  const FileFacts facts = map.embedded.bytes ? inspect_image(map.embedded) : inspect_image(path);
+  files_.push_back({path, rows_of(map, wanted_channels(path, facts, maps)), 0, {}});
   for (const std::string& note : facts.notes) {
     record_.notes.push_back(fmt::format("{}: {}", path.filename().string(), note));
   }
@@ -235,12 +242,13 @@ std::optional<NormalForm> SetReader::survey_normals() const {
   const auto planned = std::find_if(set_.maps.begin(), set_.maps.end(), [](const PlannedMap& map) {
     return map.slot == Slot::Height && !map.path.empty();
   });
-  ImageRows normals(normal->planned.path);
+  ImageRows normals = rows_of(normal->planned);
   const Size size = normals.facts().size;
   std::optional<Plane> height;
   if (convention_open && planned != set_.maps.end()) {
-    const ImageFile file = read_image(planned->path);
-    height = resample(pick_slot(file.image, Slot::Height, planned->channels).layers[0].plane, size);
+    ImageRows rows = rows_of(*planned);
+    const Layers image = rows.next(rows.facts().size.height);
+    height = resample(pick_slot(image, Slot::Height, planned->channels).layers[0].plane, size);
   }
   const PixelType type = normals.facts().type;
   NormalSurvey survey(head(*normal), set_.reading, height.has_value(),
@@ -259,6 +267,12 @@ std::optional<NormalForm> SetReader::survey_normals() const {
     if (!survey.is_open()) break;
   }
   return survey.form();
+}
+
+int SetReader::channels_read() const {
+  int channels = 0;
+  for (const File& file : files_) channels += static_cast<int>(file.rows.facts().channels.size());
+  return channels;
 }
 
 MapRows SetReader::next(int rows) {

@@ -26,6 +26,8 @@ class SetReader {
 
   /// What bakes see of it; outlived by the reader.
   const MapBands& bands() const { return bands_; }
+  /// Of all files together.
+  int channels_read() const;
   /// The rows below those before.
   MapRows next(int rows);
   /// What became of each slot, and of the texels read so far.
@@ -53,7 +55,7 @@ class SetReader {
   void open(const std::vector<PlannedMap>& maps);
   void add(const PlannedMap& map);
   void add_constant(const PlannedMap& map);
-  size_t file_of(const std::filesystem::path& path, const std::vector<PlannedMap>& maps);
+  size_t file_of(const PlannedMap& map, const std::vector<PlannedMap>& maps);
   std::string decide_color(const PlannedMap& map, const FileFacts& facts, std::string& from);
   void compare_with_tag(const PlannedMap& map, const FileFacts& facts, const std::string& from);
   std::string known_space(const std::string& tag) const;

@@ -9,6 +9,7 @@
 
 #include "glob.h"
 #include "kiln/core/names.h"
+#include "material_documents.h"
 #include "tiles.h"
 
 namespace kiln {
@@ -104,9 +105,49 @@ void plan_globbed(const SetChoice& choice, const MaterialChoice& material, Plan&
   }
 }
 
+void keep_chosen(const std::string& name, std::vector<PlannedSet>& sets) {
+  if (name.empty()) return;
+  std::vector<std::string> names;
+  for (const PlannedSet& set : sets) names.push_back(set.name);
+  if (!std::count(names.begin(), names.end(), name)) {
+    throw Error(Fault::Usage, unknown_name("set", name, names));
+  }
+  std::erase_if(sets, [&](const PlannedSet& set) { return set.name != name; });
+}
+
+PlannedSet broken_set(const std::string& name, const fs::path& source, const Error& fault) {
+  PlannedSet set;
+  set.name = name;
+  set.source = source.string();
+  set.fault = fault;
+  return set;
+}
+
+// The materials of a document, under a stated name where there is one.
+std::vector<PlannedSet> sets_of_document(const SetChoice& choice) {
+  std::vector<PlannedSet> sets;
+  const std::optional<Error> fault =
+      error_leaving([&] { sets = document_sets(choice.path, choice.reading); });
+  if (fault) {
+    const std::string name = choice.name.empty() ? choice.path.stem().string() : choice.name;
+    return {broken_set(name, choice.path, *fault)};
+  }
+  if (!choice.material.empty()) keep_chosen(choice.material, sets);
+  for (PlannedSet& set : sets) {
+    if (choice.workflow) set.reading.workflow = *choice.workflow;
+    if (choice.name.empty()) continue;
+    set.name = sets.size() == 1 ? choice.name : choice.name + "." + set.name;
+  }
+  return sets;
+}
+
 // A folder named directly is wanted: if it is of no use, its tasks fail instead of vanishing.
 void plan_folder(const SetChoice& choice, const MaterialChoice& material, Plan& plan) {
   const fs::path& folder = choice.path;
+  if (is_material_document(folder)) {
+    for (PlannedSet& set : sets_of_document(choice)) plan.sets.push_back(std::move(set));
+    return;
+  }
   const std::string name = choice.name.empty() ? folder_name(folder) : choice.name;
   std::vector<PlannedSet> sets;
   std::error_code failure;
@@ -119,11 +160,8 @@ void plan_folder(const SetChoice& choice, const MaterialChoice& material, Plan& 
     problem = "no file in it is named like a known map";
   }
   if (sets.empty()) {
-    PlannedSet set;
-    set.name = name;
-    set.source = folder.string();
-    set.fault = Error(Fault::Input, fmt::format("{}: {}", folder.string(), problem));
-    sets.push_back(std::move(set));
+    const Error fault(Fault::Input, fmt::format("{}: {}", folder.string(), problem));
+    sets.push_back(broken_set(name, folder, fault));
   }
   plan.sets.insert(plan.sets.end(), sets.begin(), sets.end());
 }
@@ -145,16 +183,6 @@ void plan_maps(const SetChoice& choice, const MaterialChoice& material, Plan& pl
   plan.sets.push_back(std::move(set));
 }
 
-void keep_chosen(const std::string& name, std::vector<PlannedSet>& sets) {
-  if (name.empty()) return;
-  std::vector<std::string> names;
-  for (const PlannedSet& set : sets) names.push_back(set.name);
-  if (!std::count(names.begin(), names.end(), name)) {
-    throw Error(Fault::Usage, unknown_name("set", name, names));
-  }
-  std::erase_if(sets, [&](const PlannedSet& set) { return set.name != name; });
-}
-
 void refuse_equal_names(const Plan& plan, Mistakes& mistakes) {
   std::map<std::string, std::string> seen;
   for (const PlannedSet& set : plan.sets) {
@@ -173,7 +201,7 @@ void plan_sets(const Pipeline& pipeline, Plan& plan, Mistakes& mistakes) {
     if (!choice.glob.empty()) {
       plan_globbed(choice, pipeline.material, own, mistakes);
     } else if (!choice.path.empty()) {
-      plan_folder(choice, pipeline.material, own);
+      attempt(mistakes, choice.place, [&] { plan_folder(choice, pipeline.material, own); });
     } else {
       plan_maps(choice, pipeline.material, own);
     }

@@ -10,6 +10,7 @@
 #include "kiln/parallel/rows.h"
 #include "kiln/parallel/stages.h"
 #include "kiln/pipeline/report.h"
+#include "memory.h"
 
 namespace kiln {
 namespace {
@@ -105,8 +106,9 @@ std::string map_file_name(const Task& task, const Artifact& artifact, size_t fil
 
 Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed) {
-  constexpr int rows_of_band = 64, bands_at_once = 6;
   const Size size = reader.bands().size;
+  const BandPlan bands =
+      plan_bands(row_cost(size, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet, size);
   const auto make = [&](Band& band) {
     band.made = sheet.make(band.read);
@@ -124,10 +126,10 @@ Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, S
     });
   };
   run_stages<Band>(
-      (size.height + rows_of_band - 1) / rows_of_band, bands_at_once,
+      (size.height + bands.rows - 1) / bands.rows, bands.at_once,
       [&](int i) {
         heed();
-        return Band{reader.next(std::min(rows_of_band, size.height - i * rows_of_band)), {}};
+        return Band{reader.next(std::min(bands.rows, size.height - i * bands.rows)), {}};
       },
       [&](int, Band& band) { make(band); }, [&](int, Band& band) { write(band); });
   Written written;

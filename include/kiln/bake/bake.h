@@ -55,7 +55,10 @@ struct MapNeeds {
 
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
 struct Needs {
-  bool material = false;     ///< the SVBRDF of the set
+  bool material = false;  ///< the SVBRDF of the set
+  /// So many texels of it each way are enough: larger sets may be halved until they come near.
+  /// Without a width all are wanted.
+  Size material_for = {};
   bool light = false;        ///< an environment (key `env`)
   bool sampled = false;      ///< its distribution of directions too
   bool prefiltered = false;  ///< and its specular chain and irradiance
@@ -117,8 +120,8 @@ struct MapSheet {
 
 struct Baked {
   std::vector<Artifact> artifacts;
-  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
   std::optional<MapSheet> sheet = {};                   ///< of bakes that read maps band by band
+  std::optional<MipSheet> mips = {};                    ///< likewise, with levels
   std::vector<std::string> notes;                       ///< what the user should know
   std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
 };

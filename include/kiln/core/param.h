@@ -47,6 +47,8 @@ double parse_number(const ParamFacts& facts, const std::string& text);
 long long parse_integer(const ParamFacts& facts, const std::string& text);
 bool parse_flag(const ParamFacts& facts, const std::string& text);
 size_t parse_word(const ParamFacts& facts, const std::string& text);  ///< index into choices
+/// "2GiB", "512 MiB", "1.5G", "4000000": [byte].
+long long parse_bytes(const std::string& name, const std::string& text);
 Size parse_extent(const ParamFacts& facts, const std::string& text);  ///< "512" or "512x256"
 std::string number_text(double value);
 

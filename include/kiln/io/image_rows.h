@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "kiln/io/image_bytes.h"
 #include "kiln/io/image_file.h"
 
 namespace kiln {
@@ -23,6 +24,9 @@ class ImageRows {
   /// @error Fault::Input when missing, unreadable or too large
   explicit ImageRows(const std::filesystem::path& path,
                      const std::vector<std::string>& channels = {}, const ReadLimits& limits = {});
+  /// An image in memory, which is held.
+  ImageRows(const ImageBytes& bytes, const std::vector<std::string>& channels = {},
+            const ReadLimits& limits = {});
   ~ImageRows();
   ImageRows(ImageRows&&) noexcept;
   ImageRows& operator=(ImageRows&&) noexcept;

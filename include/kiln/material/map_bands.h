@@ -38,9 +38,11 @@ struct MapRows {
 /// The maps of a set, read from the top and never held whole. The functions may be called from many
 /// threads at once.
 struct MapBands {
-  std::string name;     ///< of the set
-  std::string working;  ///< the colour space of what is resolved
-  Size size;            ///< of every map, once resampled: the largest's
+  std::string name;                         ///< of the set
+  std::string working;                      ///< the colour space of what is resolved
+  Size size;                                ///< of every map, once resampled: the largest's
+  Wrap wrap = Wrap::Repeat;                 ///< what lies beyond its edges
+  std::optional<double> alpha_cutoff = {};  ///< of a cutout: below it, opacity is 0
   std::vector<GivenMap> given;
   std::optional<NormalForm> normal;  ///< how its normal map, if any, is stored
 

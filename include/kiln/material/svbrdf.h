@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kiln/image/plane.h"
+#include "kiln/image/wrap.h"
 
 namespace kiln {
 
@@ -13,6 +14,7 @@ namespace kiln {
 struct Svbrdf {
   std::string name;
   Size size;
+  Wrap wrap = Wrap::Repeat;            ///< what lies beyond its edges
   std::array<Plane, 3> diffuse_color;  ///< diffuse reflectance, linear [0..1]
   std::array<Plane, 3> f0;             ///< specular reflectance at normal incidence, linear [0..1]
   Plane roughness;                     ///< perceptual [0..1]

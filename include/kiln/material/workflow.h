@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kiln/core/param.h"
+#include "kiln/image/wrap.h"
 #include "kiln/material/normals.h"
 #include "kiln/material/slot_decoding.h"
 #include "kiln/material/slots.h"
@@ -81,11 +82,21 @@ struct SlotMap {
 };
 using SlotMaps = std::map<Slot, SlotMap>;
 
+/// Wrap as stated; `Auto` is what the material's document says, else repeat.
+enum class WrapChoice { Auto, Repeat, Clamp, Mirror };
+inline constexpr std::array<std::string_view, 4> wrap_choice_names = {"auto", "repeat", "clamp",
+                                                                      "mirror"};
+constexpr Wrap settled(WrapChoice choice) {
+  return choice == WrapChoice::Auto ? Wrap::Repeat
+                                    : static_cast<Wrap>(static_cast<int>(choice) - 1);
+}
+
 struct WorkflowSettings {
   Workflow workflow = Workflow::MetalRough;
   NormalConvention normal = NormalConvention::Auto;  ///< stated, it outranks the map's name
   NormalZero normal_zero = NormalZero::Both;
   NormalRange normal_range = NormalRange::Auto;
+  WrapChoice wrap = WrapChoice::Auto;
 };
 
 /// The settings by name, for command lines and pipeline files.

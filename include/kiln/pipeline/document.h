@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,6 +68,17 @@ class Mistakes {
   };
   std::vector<Mistake> list_;
 };
+
+/// The Error that leaves work(), if one does.
+template <class Work>
+std::optional<Error> error_leaving(Work&& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error;
+  }
+  return std::nullopt;
+}
 
 /// Runs work(); an Error that says the user is wrong becomes a mistake at that place.
 template <class Work>

@@ -49,11 +49,12 @@ struct MapChoice {
   Place place = {};
 };
 
-/// An entry of `sets`: a pattern of folders, a folder, or maps by slot.
+/// An entry of `sets`: a pattern of folders, a folder or document, or maps by slot.
 struct SetChoice {
   Place place;
   std::string glob;
   std::filesystem::path path;
+  std::string material = {};  ///< of a document, the one that is wanted; empty: all
   std::string name;
   std::string chosen = {};  ///< the one of its sets that is wanted; empty: all
   std::vector<MapChoice> maps;
@@ -101,6 +102,7 @@ struct Pipeline {
   std::vector<SetChoice> sets;
   MaterialChoice material;
   std::vector<BakeChoice> bakes;
+  long long max_memory = 0;  ///< [byte] that a run may take; 0: no limit
 };
 
 /// Reads and checks a pipeline file.
@@ -123,6 +125,9 @@ BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& k
 /// An entry of `environment`, likewise.
 EnvironmentChoice environment_choice(const std::string& name,
                                      const std::vector<std::pair<std::string, std::string>>& keys);
+
+/// Whether the name is that of a document of materials: .gltf, .glb or .mtlx.
+bool is_material_document(const std::filesystem::path& path);
 
 /// Which OpenColorIO config counts: the one asked for, else that of the file, else $OCIO, else the
 /// builtin one.

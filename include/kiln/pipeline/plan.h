@@ -9,6 +9,7 @@
 
 #include "kiln/bake/bake.h"
 #include "kiln/core/error.h"
+#include "kiln/io/image_bytes.h"
 #include "kiln/material/naming.h"
 #include "kiln/pipeline/pipeline.h"
 
@@ -18,6 +19,7 @@ namespace kiln {
 struct PlannedMap {
   Slot slot = Slot::BaseColor;
   std::filesystem::path path;  ///< empty: a constant
+  ImageBytes embedded = {};    ///< the image itself, where it lies inside another file
   std::string channels;        ///< "rgb", "r", ...
   bool if_present = false;     ///< left out where the file has no such channel
   NormalConvention convention = NormalConvention::Auto;
@@ -35,6 +37,7 @@ struct PlannedSet {
   WorkflowSettings reading;
   std::string workflow_reason;
   std::vector<PlannedMap> maps;
+  std::optional<double> alpha_cutoff;  ///< of a cutout
   std::vector<IgnoredFile> ignored;
   std::vector<std::string> warnings;
   std::optional<Error> fault;  ///< why none of its tasks can run
@@ -62,7 +65,12 @@ struct Plan {
   std::vector<PlannedSet> sets;
   std::vector<Task> tasks;  ///< those of no set first, then set by set
   std::vector<std::string> warnings;
+  long long max_memory = 0;  ///< [byte] that the process may take; 0: no limit
 };
+
+/// What a task takes at most, by the headers of its files: an upper bound [byte]. Nothing where it
+/// is not predicted: tables and environments, and sets whose files cannot be read.
+std::optional<long long> predicted_memory(const Plan& plan, const Task& task);
 
 /// The texture sets of a pipeline, with what fills their slots.
 /// @error as make_plan

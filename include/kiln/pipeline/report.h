@@ -65,7 +65,7 @@ struct Report {
 
 int count(const Report& report, TaskRecord::Status status);
 
-/// 128 + signal, 1 if a task failed, else 0.
+/// 128 + signal; 33 if no task fits into memory, 1 if a task failed, else 0.
 int exit_code(const Report& report);
 
 /// The report without times: byte for byte the same for the same inputs.

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "kiln/io/image_file.h"
+
+namespace kiln {
+namespace {
+
+constexpr long long mebibyte = 1LL << 20;
+constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
+constexpr int resolved_planes = 11;
+constexpr int rows_of_block = 64;  // that decoders give at once
+
+// "1.5 GiB", "300 MiB"
+std::string text_of(long long bytes) {
+  const double mib = static_cast<double>(bytes) / static_cast<double>(mebibyte);
+  return mib >= 1024 ? fmt::format("{:.2f} GiB", mib / 1024) : fmt::format("{:.0f} MiB", mib);
+}
+
+/// Of the files of a set that a task reads.
+struct SetShape {
+  Size size{1, 1};
+  int channels = 0;
+};
+
+bool is_read(const PlannedSet& set, const PlannedMap& map, const MapNeeds& needs) {
+  if (map.path.empty()) return false;
+  if (needs.all) return true;
+  if (std::count(needs.stored.begin(), needs.stored.end(), map.slot)) return true;
+  if (!needs.resolved) return false;
+  std::vector<Slot> given;
+  for (const PlannedMap& one : set.maps) given.push_back(one.slot);
+  const std::vector<Slot> read = slots_read(set.reading.workflow, given);
+  return std::count(read.begin(), read.end(), map.slot) > 0;
+}
+
+SetShape shape_of(const PlannedSet& set, const MapNeeds& needs) {
+  SetShape shape;
+  std::set<std::filesystem::path> seen;
+  for (const PlannedMap& map : set.maps) {
+    if (!is_read(set, map, needs) || !seen.insert(map.path).second) continue;
+    const FileFacts facts = inspect_image(map.path);
+    if (area(facts.size) > area(shape.size)) shape.size = facts.size;
+    shape.channels += static_cast<int>(facts.channels.size());
+  }
+  return shape;
+}
+
+}  // namespace
+
+long long bytes_of(const RowCost& cost, const BandPlan& bands) {
+  const long long decoding = 5LL * cost.width * cost.channels * rows_of_block;
+  return process_bytes + decoding + 4LL * cost.width * cost.planes * bands.rows * bands.at_once;
+}
+
+BandPlan plan_bands(const RowCost& cost, long long budget) {
+  BandPlan bands;
+  if (budget <= 0) return bands;
+  while (bands.at_once > 2 && bytes_of(cost, bands) > budget) --bands.at_once;
+  while (bands.rows > 16 && bytes_of(cost, bands) > budget) bands.rows /= 2;
+  bands.at_once = bytes_of(cost, bands) > budget ? 1 : bands.at_once;
+  require_memory(bytes_of(cost, bands), budget, fmt::format("a band of {} rows", bands.rows));
+  return bands;
+}
+
+long long bytes_of_material(Size set, int halvings) {
+  const long long texels = area(set) >> (2 * halvings);
+  const long long levels = texels * 4 * resolved_planes * 4 / 3;
+  return bytes_of({set.width, 3 * resolved_planes, resolved_planes}, {128, 8}) + levels;
+}
+
+int halvings_of(Size set, Size wanted) {
+  if (wanted.width <= 0) return 0;
+  int halvings = 0;
+  while (set.width % 2 == 0 && set.height % 2 == 0 && set.width / 2 >= wanted.width &&
+         set.height / 2 >= wanted.height && halvings < 7) {
+    set = {set.width / 2, set.height / 2};
+    ++halvings;
+  }
+  return halvings;
+}
+
+void require_memory(long long bytes, long long budget, const std::string& what) {
+  if (budget <= 0 || bytes <= budget) return;
+  throw Error(Fault::Memory, fmt::format("{} needs {}, more than the {} that are allowed", what,
+                                         text_of(bytes), text_of(budget)));
+}
+
+std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
+  if (!task.set || plan.sets[*task.set].fault) return std::nullopt;
+  const PlannedSet& set = plan.sets[*task.set];
+  if (task.needs.maps.any()) {
+    const SetShape shape = shape_of(set, task.needs.maps);
+    const RowCost cost = row_cost(shape.size, shape.channels, task.needs.maps.resolved);
+    return bytes_of(cost, plan_bands(cost, plan.max_memory));
+  }
+  if (!task.needs.material) return std::nullopt;
+  const SetShape shape = shape_of(set, {.resolved = true});
+  const Size wanted = task.needs.material_for;
+  const Size picture = wanted.width > 0 ? wanted : shape.size;
+  return bytes_of_material(shape.size, halvings_of(shape.size, wanted)) + 4LL * 7 * area(picture);
+}
+
+RowCost row_cost(Size set, int channels_read, bool resolved) {
+  // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
+  const int planes = resolved ? 2 * channels_read + 3 * resolved_planes : 4 * channels_read;
+  return {set.width, planes, channels_read};
+}
+
+}  // namespace kiln
