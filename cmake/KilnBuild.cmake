@@ -30,6 +30,7 @@ pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO)
 pkg_check_modules(Zstandard REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(Deflate REQUIRED IMPORTED_TARGET libdeflate)
+pkg_check_modules(PugiXml REQUIRED IMPORTED_TARGET pugixml)
 
 # Warnings, instruction set and floating-point contract of our own code.
 # No -ffast-math: NaN keeps meaning NaN, and fused operations are written as fma.

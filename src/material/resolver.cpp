@@ -241,6 +241,10 @@ Bounds bounds_of(const SlotMaps& maps, Slot slot) {
   const bool is_ior = slot == Slot::SpecularLevel && found != maps.end() &&
                       found->second.encoding == SpecularEncoding::Ior;
   if (is_ior) return {1.0f, 1000.0f};
+  if (slot == Slot::Anisotropy && found != maps.end() &&
+      found->second.decoding.anisotropy == AnisotropyEncoding::Burley) {
+    return {0.0f, most_anisotropic};
+  }
   return slot == Slot::SpecularTint ? Bounds{0.0f, 1000.0f} : Bounds{};
 }
 

@@ -162,12 +162,12 @@ std::string substituted(const Node& node, const std::map<std::string, std::strin
     }
     i = close + 1;
     const auto found = vars.find(snake(name));
-    if (name == "set" || name == "udim") {
+    if (name == "set" || name == "udim" || name == "suffix") {
       result += "{" + name + "}";
     } else if (found != vars.end()) {
       result += found->second;
     } else {
-      std::vector<std::string> known{"set", "udim"};
+      std::vector<std::string> known{"set", "udim", "suffix"};
       for (const auto& var : vars) known.push_back(var.first);
       mistakes.add(node.place, unknown_name("variable", name, known));
     }

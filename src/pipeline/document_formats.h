@@ -16,5 +16,6 @@ struct DocumentMaterial {
 
 /// @error Fault::Input
 std::vector<DocumentMaterial> gltf_materials(const std::filesystem::path& file);
+std::vector<DocumentMaterial> mtlx_materials(const std::filesystem::path& file);
 
 }  // namespace kiln

@@ -36,11 +36,12 @@ void name_materials(const fs::path& file, std::vector<DocumentMaterial>& materia
 
 bool is_material_document(const fs::path& path) {
   const std::string extension = kebab(path.extension().string());
-  return extension == ".gltf" || extension == ".glb";
+  return extension == ".gltf" || extension == ".glb" || extension == ".mtlx";
 }
 
 std::vector<PlannedSet> document_sets(const fs::path& file, const WorkflowSettings& reading) {
-  std::vector<DocumentMaterial> materials = gltf_materials(file);
+  const bool is_mtlx = kebab(file.extension().string()) == ".mtlx";
+  std::vector<DocumentMaterial> materials = is_mtlx ? mtlx_materials(file) : gltf_materials(file);
   if (materials.empty()) {
     throw Error(Fault::Input, fmt::format("{}: no material in it", file.string()));
   }

@@ -44,7 +44,8 @@ SetShape shape_of(const PlannedSet& set, const MapNeeds& needs) {
   std::set<std::filesystem::path> seen;
   for (const PlannedMap& map : set.maps) {
     if (!is_read(set, map, needs) || !seen.insert(map.path).second) continue;
-    const FileFacts facts = inspect_image(map.path);
+    const FileFacts facts =
+        map.embedded.bytes ? inspect_image(map.embedded) : inspect_image(map.path);
     if (area(facts.size) > area(shape.size)) shape.size = facts.size;
     shape.channels += static_cast<int>(facts.channels.size());
   }

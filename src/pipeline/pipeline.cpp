@@ -193,7 +193,8 @@ std::map<std::string, std::string> read_vars(
   std::vector<std::string> known;
   with(root, "vars", [&](const Node& node) {
     for (const Entry& entry : node.entries) {
-      if (snake(entry.key) == "set" || snake(entry.key) == "udim") {
+      if (snake(entry.key) == "set" || snake(entry.key) == "udim" ||
+          snake(entry.key) == "suffix") {
         mistakes.add(entry.place, fmt::format("'{}' is what a texture set is called; choose "
                                               "another variable",
                                               entry.key));

@@ -119,7 +119,8 @@ void store_lanes(ScalarOf<F>* to, F value) {
 /// table[index] lane for lane; every lane's index must be inside the table.
 inline float gather(const float* table, std::int32_t index) { return table[index]; }
 inline WideFloat gather(const float* table, WideInt index) {
-  return WideFloat::gather(table, index);
+  // The processor's own gather, which xsimd 8.1's WideFloat::gather does not reach.
+  return xsimd::kernel::gather<WideFloat::arch_type>(table, index, WideFloat::arch_type{});
 }
 
 // Indices into tables, lane for lane beside a float type.
