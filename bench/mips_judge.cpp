@@ -2,7 +2,11 @@
 // How well each way of filtering normals into roughness stands for its footprint, by brute force:
 // the GGX lobes of all texels of the first level below a texel, averaged, against the one lobe.
 //
-//   mips_judge NORMAL_MAP gl|dx ROUGHNESS_MAP|NUMBER [TEXELS_PER_LEVEL]
+// Median and 90th percentile over texels chosen by a hash; of the peak with its sign too.
+//
+//   mips_judge NORMAL_MAP gl|dx ROUGHNESS_MAP|NUMBER [TEXELS_PER_LEVEL [LEVELS]]
+//
+// LEVELS is the beginning of the names of somebody's roughness levels, as images: LEVELS_1.png ...
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,6 +81,15 @@ std::vector<Level> levels_of(const Surface& surface, const NormalFiltering& filt
   return levels;
 }
 
+std::vector<Level> read_levels(const std::string& stem, int count) {
+  std::vector<Level> levels(1);
+  for (int l = 1; l < count; ++l) {
+    const Plane roughness = read_image(fmt::format("{}_{}.png", stem, l)).image.layers[0].plane;
+    levels.push_back({roughness, roughness, roughness, roughness});
+  }
+  return levels;
+}
+
 struct Footprint {
   Facets facets;
   Vec3<float> normal;  ///< of the mean slope, or the mean
@@ -140,15 +153,14 @@ int main(int argc, char** argv) {
   std::vector<Method> methods{{"none", {NormalFilter::None}, false, true},
                               {"toksvig", {NormalFilter::Toksvig}, false, true},
                               {"vmf", {NormalFilter::Vmf}, false, true},
-                              {"vmf x1.7", {NormalFilter::Vmf, 1.7}, false, true},
                               {"lean", {NormalFilter::Lean}, false, true},
-                              {"lean aniso", {NormalFilter::Lean}, true, true},
-                              {"aniso x1.7", {NormalFilter::Lean, 1.7}, true, true},
-                              {"vmf, mean n", {NormalFilter::Vmf}, false, false}};
+                              {"lean, x and y", {NormalFilter::Lean}, true, true}};
   fmt::print("{:12} {:>5}   {:>8} {:>8} {:>8}   {:>8} {:>8}   {:>8}\n", "method", "level", "peak",
              "|peak|", "90 %", "rms", "90 %", "albedo");
+  if (argc > 5) methods.push_back({"theirs", {NormalFilter::None}, false, true});
   for (const Method& method : methods) {
-    const std::vector<Level> levels = levels_of(surface, method.filtering, 6);
+    const std::vector<Level> levels =
+        method.name == "theirs" ? read_levels(argv[5], 6) : levels_of(surface, method.filtering, 6);
     for (int l = 1; l <= 5; l += 2) {
       std::vector<double> peaks, signed_peaks, rms, albedos;
       const Level& level = levels[l];

@@ -15,7 +15,7 @@ namespace kiln::io::module {
 inline constexpr char file_name[] = "kiln_openimageio.so";
 inline constexpr char entry_name[] = "kiln_openimageio";
 /// Changes whenever anything below does.
-inline constexpr int face_version = 2;
+inline constexpr int face_version = 3;
 
 struct Reader;
 struct Writer;
@@ -43,6 +43,7 @@ struct WrittenImage {
   int channels = 0;
   PixelType type = PixelType::Uint8;
   int alpha_channel = -1;
+  int fast = 0;                      ///< 1: rather packed quickly than small
   const Attribute* texts = nullptr;  ///< metadata
   int text_count = 0;
 };

@@ -81,6 +81,7 @@ class OpenImageIoEncoder : public BandEncoder {
     image.channels = static_cast<int>(layout.planes.size());
     image.type = file_.options.type;
     image.alpha_channel = layout.alpha_channel;
+    image.fast = file_.options.packing == Packing::Fast ? 1 : 0;
     image.texts = texts.data();
     image.text_count = static_cast<int>(texts.size());
     const module::Sink sink{&beginning_, write_to};

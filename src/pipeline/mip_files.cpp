@@ -139,6 +139,7 @@ void open_images(const fs::path& folder, const Task& task, const MipSheet& sheet
   options.type = file.type;
   options.color_tag = tag_of(file);
   options.attributes = attributes_of(map, file);
+  if (format.name == "png") options.packing = Packing::Fast;
   const std::vector<Size> sizes = level_sizes(sheet.size, sheet.levels);
   for (size_t l = 0; l < sizes.size(); ++l) {
     file.images.push_back(

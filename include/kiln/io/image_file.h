@@ -107,10 +107,11 @@ enum class AlphaStorage {
   Premultiplied,  ///< R, G, B (or Y) times A: the custom of pictures in OpenEXR
 };
 
-/// What OpenEXR files are packed with.
+/// What OpenEXR and PNG files are packed with.
 enum class Packing {
   Zip,   ///< small: what pictures want
-  Fast,  ///< not packed at all, several times faster to write: what tables want
+  Fast,  ///< several times faster to write: what tables want. OpenEXR is not packed at all, PNG
+         ///< lightly, to within a tenth of the size
 };
 
 /// What the numbers of a table stand for, in formats that are read by people.
