@@ -146,7 +146,7 @@ Params<Settings> PreviewBake::params() {
       word_param("mode", &Settings::mode, mode_words,
                  "true light transport, what an engine shows, or the second minus the first"),
       integer_param("samples", &Settings::samples, {1, most_samples},
-                    "directions per texel (reference), rounded up to whole repetitions"),
+                    "directions per texel, rounded up to whole repetitions"),
       number_param("target_error", &Settings::target_error, {0, 1e9}, "",
                    "doubles samples of each 16x16 block to this mean error; 0: no"),
       extent_param("size", &Settings::size, {1, 32768}, "of the picture"),

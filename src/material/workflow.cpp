@@ -130,7 +130,7 @@ const Params<WorkflowSettings>& workflow_params() {
       word_param("normal_zero", &WorkflowSettings::normal_zero, words_of(normal_zero_names),
                  "8-bit code of a normal map that means zero slope"),
       word_param("normal_range", &WorkflowSettings::normal_range, words_of(normal_range_names),
-                 "normal maps store [0,1] (unsigned) or [-1,1] (signed)"),
+                 "normal maps hold [0,1] or [-1,1]"),
       word_param("wrap", &WorkflowSettings::wrap, words_of(wrap_choice_names),
                  "beyond the edges; auto: as the file says"),
   };
