@@ -20,12 +20,14 @@ constexpr int half_vectors = 512;
 
 std::vector<const float*> rows_of(const std::vector<Plane>& planes, int y) {
   std::vector<const float*> rows;
+  rows.reserve(planes.size());
   for (const Plane& plane : planes) rows.push_back(plane.row(y));
   return rows;
 }
 
 std::vector<float*> rows_of(Layers& image, int y) {
   std::vector<float*> rows;
+  rows.reserve(image.layers.size());
   for (Layer& layer : image.layers) rows.push_back(layer.plane.row(y));
   return rows;
 }
@@ -42,6 +44,7 @@ double energy_of_first(const MipMap& map, const MipBand& band, Layers& image) {
     }
     std::vector<Plane> numbers(static_cast<size_t>(map.channels), Plane({width, 1}));
     std::vector<float*> filled;
+    filled.reserve(numbers.size());
     for (Plane& plane : numbers) filled.push_back(plane.row(0));
     map.fill(band, y, filled.data());
     sums[static_cast<size_t>(y)] = map.energy(width, filled.data(), layers.data());
