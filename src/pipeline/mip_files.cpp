@@ -14,6 +14,7 @@
 #include "kiln/parallel/rows.h"
 #include "kiln/parallel/stages.h"
 #include "kiln/pipeline/report.h"
+#include "memory.h"
 
 namespace kiln {
 namespace {
@@ -200,7 +201,9 @@ struct Band {
 
 Written write_mips(const Plan& plan, const Task& task, const MipSheet& sheet, SetReader& reader,
                    const ColorConfig& config, const std::function<void()>& heed) {
-  constexpr int rows_of_band = 64, bands_at_once = 4;
+  const Size set = reader.bands().size;
+  const BandPlan bands =
+      plan_bands(row_cost(set, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet);
   const auto write = [&](Band& band) {
     std::vector<MipRows> made = sheet.filter(band.rows.get());
@@ -218,10 +221,10 @@ Written write_mips(const Plan& plan, const Task& task, const MipSheet& sheet, Se
   };
   const int height = sheet.size.height;
   run_stages<Band>(
-      (height + rows_of_band - 1) / rows_of_band, bands_at_once,
+      (height + bands.rows - 1) / bands.rows, bands.at_once,
       [&](int i) {
         heed();
-        return Band{reader.next(std::min(rows_of_band, height - i * rows_of_band)), nullptr};
+        return Band{reader.next(std::min(bands.rows, height - i * bands.rows)), nullptr};
       },
       [&](int, Band& band) {
         band.rows = sheet.read(band.read);
