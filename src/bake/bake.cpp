@@ -48,7 +48,7 @@ struct BakeList {
 
 // THE list: help, parsing, docs, the pipeline's schema and the contract tests follow from it.
 using Bakes = BakeList<LutBake, EnvironmentBake, PreviewBake, DeriveBake, ConvertBake, PackBake,
-                       UnpackBake, NormalBake, MipsBake>;
+                       UnpackBake, NormalBake, MipsBake, OcclusionBake>;
 
 }  // namespace
 

@@ -186,4 +186,22 @@ struct NormalBake {
   static Baked bake(const Settings& settings, const Ingredients& ingredients);
 };
 
+/// Ambient occlusion from height.
+struct OcclusionBake {
+  static constexpr const char* name = "occlusion";
+  static constexpr const char* summary = "ambient occlusion from height";
+  static constexpr Scope scope = Scope::PerSet;
+  static constexpr Product product = Product::Maps;
+  struct Settings {
+    double height_scale = 0.01;
+    double tile_size = 1;
+    double radius = 0.05;
+    int directions = 16;
+    std::string format;
+  };
+  static Params<Settings> params();
+  static Needs needs(const Settings& settings);
+  static Baked bake(const Settings& settings, const Ingredients& ingredients);
+};
+
 }  // namespace kiln

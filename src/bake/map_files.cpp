@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_files.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -62,16 +60,6 @@ Layers layers_of(std::vector<Plane> planes, const std::vector<std::string>& name
   for (size_t i = 0; i < planes.size(); ++i)
     image.layers.push_back({names[i], std::move(planes[i])});
   return image;
-}
-
-Artifact material_file(const std::string& workflow,
-                       const std::vector<std::pair<std::string, std::string>>& maps) {
-  Artifact file;
-  file.name = "material";
-  file.extension = ".yaml";
-  file.text = "version: 1\nmaterial: { workflow: " + workflow + " }\nmaps:\n";
-  for (const auto& [slot, value] : maps) file.text += fmt::format("  {}: {}\n", slot, value);
-  return file;
 }
 
 }  // namespace kiln

@@ -30,8 +30,4 @@ Artifact color_file(const std::string& name, const std::string& extension, const
 /// Rows of an image with these planes.
 Layers layers_of(std::vector<Plane> planes, const std::vector<std::string>& names);
 
-/// A material file that reads the maps of that sheet back.
-Artifact material_file(const std::string& workflow,
-                       const std::vector<std::pair<std::string, std::string>>& maps);
-
 }  // namespace kiln
