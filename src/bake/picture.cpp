@@ -12,6 +12,8 @@ namespace {
 constexpr double position_x[subpixels] = {0.375, 0.875, 0.125, 0.625};
 constexpr double position_y[subpixels] = {0.125, 0.375, 0.625, 0.875};
 
+double radius_of(Size picture) { return 0.48 * std::min(picture.width, picture.height); }
+
 int wrap(int i, int n) {
   const int rest = i % n;
   return rest < 0 ? rest + n : rest;
@@ -81,9 +83,16 @@ Vec3<double> Picture::from_environment(const Vec3<double>& w) const {
   return {w.x * cos_rotate_ + w.z * sin_rotate_, w.y, w.z * cos_rotate_ - w.x * sin_rotate_};
 }
 
-double Picture::radius() const {
-  return 0.48 * std::min(options_.size.width, options_.size.height);
+// Half a level finer than the footprint of a pixel is read, which on a ball is least in its middle.
+Size Picture::texels_read(bool ball, Size size) {
+  const double finer = std::sqrt(2.0);
+  const auto counted = [&](double texels) { return static_cast<int>(std::ceil(finer * texels)); };
+  if (!ball) return {counted(size.width), counted(size.height)};
+  const int around = counted(pi * radius_of(size));
+  return {around, around};
 }
+
+double Picture::radius() const { return radius_of(options_.size); }
 
 float Picture::coverage(int x, int y) const {
   if (!options_.ball) return 1;

@@ -26,6 +26,10 @@ class Picture {
   };
   Picture(const Svbrdf& maps, const Options& options);
 
+  /// Maps of so many texels each way, or more, make the same picture however often they are halved
+  /// before; halved once more they would lack a level that is read.
+  static Size texels_read(bool ball, Size size);
+
   Size size() const { return options_.size; }
   bool is_ball() const { return options_.ball; }
 

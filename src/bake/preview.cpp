@@ -58,6 +58,15 @@ Picture make_picture(const Settings& settings, const Svbrdf& maps) {
                  {ball, picture_size(settings, maps.size), viewer_of(settings), settings.rotate});
 }
 
+// How much of large maps the picture reads; nothing where it reads all.
+Size texels_read(const Settings& settings) {
+  const bool ball = settings.shape == PreviewBake::Shape::Sphere;
+  if (settings.shape == PreviewBake::Shape::Contact) return {};
+  if (!ball && settings.size.width <= 0) return {};
+  constexpr int any_large = 1 << 20;
+  return Picture::texels_read(ball, picture_size(settings, {any_large, any_large}));
+}
+
 const std::vector<std::string> shape_words = {"flat", "sphere", "contact"};
 const std::vector<std::string> mode_words = {"reference", "split-sum", "difference"};
 constexpr int most_cell = 4096;  // of a picture on a contact sheet [texel]
@@ -163,6 +172,7 @@ Params<Settings> PreviewBake::params() {
 
 Needs PreviewBake::needs(const Settings& settings) {
   return {.material = true,
+          .material_for = texels_read(settings),
           .light = true,
           .sampled = true,
           .prefiltered = settings.mode != Mode::Reference,

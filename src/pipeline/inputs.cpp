@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -10,9 +12,6 @@
 
 namespace kiln {
 namespace {
-
-constexpr int rows_of_band = 128;
-constexpr int bands_at_once = 8;
 
 std::vector<Plane*> planes_of(Svbrdf& svbrdf) {
   std::vector<Plane*> planes;
@@ -44,7 +43,9 @@ LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorC
   SetReader reader(set, color, config, {.resolved = true});
   const Size size = reader.bands().size;
   const int halvings = halvings_of(size, wanted);
-  require_memory(bytes_of_material(size, halvings), max_memory, "set " + set.name);
+  const BandPlan bands = bands_of_material(size, halvings, max_memory);
+  require_memory(bytes_of_material(size, halvings, bands), max_memory,
+                 fmt::format("{}: a set of {} x {} texels", set.name, size.width, size.height));
   LoadedSet loaded;
   Svbrdf& whole = loaded.svbrdf;
   whole.name = set.name;
@@ -53,10 +54,9 @@ LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorC
   if (reader.bands().find(Slot::Anisotropy)) whole.anisotropy = Plane(whole.size);
   if (reader.bands().find(Slot::AnisotropyAngle)) whole.anisotropy_angle = Plane(whole.size);
   for (Plane* plane : planes_of(whole)) *plane = Plane(whole.size);
-  const int bands = (size.height + rows_of_band - 1) / rows_of_band;
   run_stages<MapRows>(
-      bands, bands_at_once,
-      [&](int i) { return reader.next(std::min(rows_of_band, size.height - i * rows_of_band)); },
+      (size.height + bands.rows - 1) / bands.rows, bands.at_once,
+      [&](int i) { return reader.next(std::min(bands.rows, size.height - i * bands.rows)); },
       [&](int, MapRows& rows) {
         Svbrdf band = reader.bands().svbrdf(rows);
         for (int i = 0; i < halvings; ++i) band = halve(band);

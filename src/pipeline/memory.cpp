@@ -22,6 +22,8 @@ std::string text_of(long long bytes) {
   return mib >= 1024 ? fmt::format("{:.2f} GiB", mib / 1024) : fmt::format("{:.0f} MiB", mib);
 }
 
+RowCost cost_of_material(Size set) { return {set.width, 3 * resolved_planes, resolved_planes}; }
+
 /// Of the files of a set that a task reads.
 struct SetShape {
   Size size{1, 1};
@@ -65,14 +67,29 @@ BandPlan plan_bands(const RowCost& cost, long long budget) {
   while (bands.at_once > 2 && bytes_of(cost, bands) > budget) --bands.at_once;
   while (bands.rows > 16 && bytes_of(cost, bands) > budget) bands.rows /= 2;
   bands.at_once = bytes_of(cost, bands) > budget ? 1 : bands.at_once;
+  return bands;
+}
+
+BandPlan require_bands(const RowCost& cost, long long budget) {
+  const BandPlan bands = plan_bands(cost, budget);
   require_memory(bytes_of(cost, bands), budget, fmt::format("a band of {} rows", bands.rows));
   return bands;
 }
 
-long long bytes_of_material(Size set, int halvings) {
-  const long long texels = area(set) >> (2 * halvings);
-  const long long levels = texels * 4 * resolved_planes * 4 / 3;
-  return bytes_of({set.width, 3 * resolved_planes, resolved_planes}, {128, 8}) + levels;
+long long bytes_of_material(Size set, int halvings, const BandPlan& bands) {
+  // The maps themselves, and their copy in a picture with its levels.
+  const long long maps = (area(set) >> (2 * halvings)) * 4 * resolved_planes;
+  return bytes_of(cost_of_material(set), bands) + maps + maps * 4 / 3;
+}
+
+BandPlan bands_of_material(Size set, int halvings, long long budget) {
+  BandPlan bands{128, 8};
+  if (budget <= 0) return bands;
+  const int least = std::max(16, 1 << halvings);
+  const auto bytes = [&] { return bytes_of_material(set, halvings, bands); };
+  while (bands.at_once > 2 && bytes() > budget) --bands.at_once;
+  while (bands.rows > least && bytes() > budget) bands.rows /= 2;
+  return bands;
 }
 
 int halvings_of(Size set, Size wanted) {
@@ -104,7 +121,9 @@ std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
   const SetShape shape = shape_of(set, {.resolved = true});
   const Size wanted = task.needs.material_for;
   const Size picture = wanted.width > 0 ? wanted : shape.size;
-  return bytes_of_material(shape.size, halvings_of(shape.size, wanted)) + 4LL * 7 * area(picture);
+  const int halvings = halvings_of(shape.size, wanted);
+  const BandPlan bands = bands_of_material(shape.size, halvings, plan.max_memory);
+  return bytes_of_material(shape.size, halvings, bands) + 4LL * 7 * area(picture);
 }
 
 RowCost row_cost(Size set, int channels_read, bool resolved) {

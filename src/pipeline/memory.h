@@ -14,22 +14,30 @@ struct BandPlan {
 /// Memory of rows of a set, from what is read to what is written.
 struct RowCost {
   long long width = 0;  ///< of the set [texel]
-  int planes = 0;       ///< float planes of a band at its most
+  int planes = 0;       ///< float planes of every band on its way
+  int working = 0;      ///< and of those that are being computed
   int channels = 0;     ///< of the files, which are decoded in blocks of rows of their own
 };
 
 /// @param channels_read  of all files together
 RowCost row_cost(Size set, int channels_read, bool resolved);
 
-/// Bands that fit into the budget beside what the process needs anyway; the default without one.
-/// @error Fault::Memory when not even one narrow band fits
+/// Bands that fit into the budget beside what the process needs anyway, or else the narrowest; the
+/// default without a budget.
 BandPlan plan_bands(const RowCost& cost, long long budget);
 
 /// Bytes that the process takes at most while it holds such bands.
 long long bytes_of(const RowCost& cost, const BandPlan& bands);
 
-/// Bytes of a set that is held as one BRDF per texel, reduced, with its mip levels.
-long long bytes_of_material(Size set, int halvings);
+/// plan_bands, where they do fit. @error Fault::Memory
+BandPlan require_bands(const RowCost& cost, long long budget);
+
+/// The same for a set that is held as one BRDF per texel, so often halved, with its mip levels.
+/// Bands have a multiple of 2^halvings rows.
+BandPlan bands_of_material(Size set, int halvings, long long budget);
+
+/// Bytes that the process takes at most with such a set.
+long long bytes_of_material(Size set, int halvings, const BandPlan& bands);
 
 /// How often a set of that size may be halved and still be read at every texel.
 /// @param wanted  as Needs::material_for; no width: never

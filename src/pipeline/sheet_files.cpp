@@ -107,8 +107,8 @@ std::string map_file_name(const Task& task, const Artifact& artifact, size_t fil
 Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed) {
   const Size size = reader.bands().size;
-  const BandPlan bands =
-      plan_bands(row_cost(size, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
+  const BandPlan bands = require_bands(
+      row_cost(size, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet, size);
   const auto make = [&](Band& band) {
     band.made = sheet.make(band.read);
