@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kiln/io/image_file.h"
+#include "kiln/parallel/threads.h"
 
 namespace kiln {
 namespace {
@@ -22,7 +23,9 @@ std::string text_of(long long bytes) {
   return mib >= 1024 ? fmt::format("{:.2f} GiB", mib / 1024) : fmt::format("{:.0f} MiB", mib);
 }
 
-RowCost cost_of_material(Size set) { return {set.width, 3 * resolved_planes, resolved_planes}; }
+RowCost cost_of_material(Size set) {
+  return {set.width, resolved_planes, 2 * resolved_planes, resolved_planes};
+}
 
 /// Of the files of a set that a task reads.
 struct SetShape {
@@ -58,7 +61,9 @@ SetShape shape_of(const PlannedSet& set, const MapNeeds& needs) {
 
 long long bytes_of(const RowCost& cost, const BandPlan& bands) {
   const long long decoding = 5LL * cost.width * cost.channels * rows_of_block;
-  return process_bytes + decoding + 4LL * cost.width * cost.planes * bands.rows * bands.at_once;
+  const long long planes = 1LL * cost.planes * bands.at_once +
+                           1LL * cost.working * std::min(bands.at_once, available_threads());
+  return process_bytes + decoding + 4LL * cost.width * bands.rows * planes;
 }
 
 BandPlan plan_bands(const RowCost& cost, long long budget) {
@@ -128,8 +133,8 @@ std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
 
 RowCost row_cost(Size set, int channels_read, bool resolved) {
   // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
-  const int planes = resolved ? 2 * channels_read + 3 * resolved_planes : 4 * channels_read;
-  return {set.width, planes, channels_read};
+  const int planes = resolved ? 2 * channels_read + 3 * resolved_planes : 3 * channels_read;
+  return {set.width, planes, 0, channels_read};
 }
 
 }  // namespace kiln
