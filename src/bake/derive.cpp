@@ -93,12 +93,13 @@ constexpr std::array quantities{
 
 std::vector<std::string> quantity_names() {
   std::vector<std::string> names;
+  names.reserve(quantities.size());
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
   return names;
 }
 
 std::vector<double> angles_of(const Settings& settings) {
-  const std::vector<double> angles = number_list("angles", settings.angles);
+  std::vector<double> angles = number_list("angles", settings.angles);
   for (const double angle : angles) {
     if (angle >= 0 && angle < 90) continue;
     throw Error(Fault::Usage, fmt::format("angles: found {}, expected [0, 90) degrees", angle));

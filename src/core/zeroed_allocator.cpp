@@ -31,7 +31,7 @@ void free_zeroed_memory(void* memory, std::size_t bytes, std::size_t alignment) 
   if (comes_from_system(bytes)) {
     munmap(memory, bytes);
   } else {
-    ::operator delete (memory, bytes, std::align_val_t{alignment});
+    ::operator delete (memory, std::align_val_t{alignment});
   }
 }
 

@@ -108,6 +108,7 @@ void plan_globbed(const SetChoice& choice, const MaterialChoice& material, Plan&
 void keep_chosen(const std::string& name, std::vector<PlannedSet>& sets) {
   if (name.empty()) return;
   std::vector<std::string> names;
+  names.reserve(sets.size());
   for (const PlannedSet& set : sets) names.push_back(set.name);
   if (!std::count(names.begin(), names.end(), name)) {
     throw Error(Fault::Usage, unknown_name("set", name, names));
