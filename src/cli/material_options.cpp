@@ -84,6 +84,7 @@ void require_one_set(const Pipeline& pipeline) {
   const std::vector<PlannedSet> sets = planned_sets(pipeline);
   if (sets.size() == 1) return;
   std::vector<std::string> names;
+  names.reserve(sets.size());
   for (const PlannedSet& set : sets) names.push_back(set.name);
   throw Error(Fault::Usage,
               fmt::format("found {} texture sets: {}; choose one with --name or --workflow",
