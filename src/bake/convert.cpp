@@ -4,6 +4,7 @@
 #include "bakes.h"
 #include "map_files.h"
 #include "metalness.h"
+#include "stored_rows.h"
 
 namespace kiln {
 namespace {
@@ -32,14 +33,9 @@ std::vector<Target> targets_of(const Settings& settings) {
   return {{"base_color", true}, {"metallic", false}, {"roughness", false}};
 }
 
-Plane gloss_of(const Plane& roughness) {
-  Plane gloss(roughness.size());
-  for (int y = 0; y < gloss.height(); ++y) {
-    const float* from = roughness.row(y);
-    float* to = gloss.row(y);
-    for (int x = 0; x < gloss.width(); ++x) to[x] = 1.0f - from[x];
-  }
-  return gloss;
+Plane gloss_of(Plane roughness) {
+  invert(roughness);
+  return roughness;
 }
 
 /// The base colour and metalness of each texel.

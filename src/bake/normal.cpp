@@ -16,18 +16,6 @@ NormalConvention convention_of(const Settings& settings) {
                                                : NormalConvention::DirectX;
 }
 
-Layers encoded(std::array<Plane, 3> normal, NormalConvention convention) {
-  if (convention == NormalConvention::DirectX) flip_y(normal);
-  for (Plane& plane : normal) {
-    for (int y = 0; y < plane.height(); ++y) {
-      float* row = plane.row(y);
-      for (int x = 0; x < plane.width(); ++x) row[x] = 0.5f * row[x] + 0.5f;
-    }
-  }
-  return layers_of({std::move(normal[0]), std::move(normal[1]), std::move(normal[2])},
-                   {"R", "G", "B"});
-}
-
 /// A height map that repeats, in units in which its gradient is the slope.
 struct Relief {
   Plane height;
@@ -109,14 +97,15 @@ Baked NormalBake::bake(const Settings& settings, const Ingredients& ingredients)
   if (from_height) {
     const auto relief = std::make_shared<const Relief>(relief_of(settings, maps));
     make = [relief, convention](const MapRows& rows) {
-      return encoded(relief->normals(rows.rows), convention);
+      return encoded_normals(relief->normals(rows.rows), convention);
     };
   } else {
     if (maps.normal) baked.notes = maps.normal->notes;
     make = [&maps, settings, convention](const MapRows& rows) {
       const SlotMap stored = maps.stored(rows).at(Slot::Normal);
       if (!settings.renormalize) return stored_normals(stored, *maps.normal, convention);
-      return encoded(decode_normals(stored.image, maps.normal->decoding).normal, convention);
+      return encoded_normals(decode_normals(stored.image, maps.normal->decoding).normal,
+                             convention);
     };
   }
   sheet.make = [make, two = settings.two_channel](const MapRows& rows) {

@@ -24,13 +24,6 @@ Slot stand_in(Slot slot) {
 
 bool is_width(Slot slot) { return slot == Slot::Roughness || slot == Slot::Gloss; }
 
-void encode(Plane& plane) {
-  for (int y = 0; y < plane.height(); ++y) {
-    float* row = plane.row(y);
-    for (int x = 0; x < plane.width(); ++x) row[x] = 0.5f * row[x] + 0.5f;
-  }
-}
-
 }  // namespace
 
 const GivenMap* standing_for(const MapBands& maps, Slot slot) {
@@ -62,11 +55,19 @@ Layers stored_normals(const SlotMap& rows, const NormalForm& form, NormalConvent
     if (turned) invert(normals.layers[1].plane);
     return normals;
   }
-  DecodedNormals decoded = decode_normals(rows.image, form.decoding);
-  if (convention == NormalConvention::DirectX) flip_y(decoded.normal);
-  for (Plane& plane : decoded.normal) encode(plane);
-  auto& [x, y, z] = decoded.normal;
-  return layers_of({std::move(x), std::move(y), std::move(z)}, {"R", "G", "B"});
+  return encoded_normals(decode_normals(rows.image, form.decoding).normal, convention);
+}
+
+Layers encoded_normals(std::array<Plane, 3> normal, NormalConvention convention) {
+  if (convention == NormalConvention::DirectX) flip_y(normal);
+  for (Plane& plane : normal) {
+    for (int y = 0; y < plane.height(); ++y) {
+      float* row = plane.row(y);
+      for (int x = 0; x < plane.width(); ++x) row[x] = 0.5f * row[x] + 0.5f;
+    }
+  }
+  return layers_of({std::move(normal[0]), std::move(normal[1]), std::move(normal[2])},
+                   {"R", "G", "B"});
 }
 
 void invert(Plane& plane) {

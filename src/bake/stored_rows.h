@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kiln/bake/bake.h"
@@ -17,6 +18,9 @@ Plane stored_channel(const SlotMaps& rows, const GivenMap* map, Slot slot, int c
 /// Rows of a normal map in a convention, as stored: green turned where that differs, and all three
 /// encoded anew where the file holds two channels or signed numbers.
 Layers stored_normals(const SlotMap& rows, const NormalForm& form, NormalConvention convention);
+
+/// Unit normals, +Y up, as a file of that convention stores them: (n + 1) / 2.
+Layers encoded_normals(std::array<Plane, 3> normal, NormalConvention convention);
 
 /// 1 - v of every texel.
 void invert(Plane& plane);

@@ -8,6 +8,7 @@
 
 #include "kiln/io/image_file.h"
 #include "kiln/parallel/threads.h"
+#include "set_reader.h"
 
 namespace kiln {
 namespace {
@@ -33,22 +34,11 @@ struct SetShape {
   int channels = 0;
 };
 
-bool is_read(const PlannedSet& set, const PlannedMap& map, const MapNeeds& needs) {
-  if (map.path.empty()) return false;
-  if (needs.all) return true;
-  if (std::count(needs.stored.begin(), needs.stored.end(), map.slot)) return true;
-  if (!needs.resolved) return false;
-  std::vector<Slot> given;
-  for (const PlannedMap& one : set.maps) given.push_back(one.slot);
-  const std::vector<Slot> read = slots_read(set.reading.workflow, given);
-  return std::count(read.begin(), read.end(), map.slot) > 0;
-}
-
 SetShape shape_of(const PlannedSet& set, const MapNeeds& needs) {
   SetShape shape;
   std::set<std::filesystem::path> seen;
-  for (const PlannedMap& map : set.maps) {
-    if (!is_read(set, map, needs) || !seen.insert(map.path).second) continue;
+  for (const PlannedMap& map : maps_needed(set, needs)) {
+    if (map.path.empty() || !seen.insert(map.path).second) continue;
     const FileFacts facts =
         map.embedded.bytes ? inspect_image(map.embedded) : inspect_image(map.path);
     if (area(facts.size) > area(shape.size)) shape.size = facts.size;

@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view suffix_mark = "{suffix}";
 constexpr std::string_view srgb = "srgb_rec709_scene";
 
 bool holds_levels(const fs::path& path) {
@@ -41,20 +40,8 @@ std::string usual_extension(const MipSheet& sheet, const MipFile& file) {
 }
 
 std::string file_name(const Task& task, const MipSheet& sheet, const MipFile& file) {
-  std::string name = task.out;
-  if (const size_t mark = name.find(suffix_mark); mark != std::string::npos) {
-    name.replace(mark, suffix_mark.size(), file.name);
-    return fs::path(name).has_extension() ? name : name + usual_extension(sheet, file);
-  }
-  if (!names_an_image(name) && !holds_levels(name)) {
-    return (fs::path(name) / (file.name + usual_extension(sheet, file)))
-        .lexically_normal()
-        .generic_string();
-  }
-  if (sheet.files.size() == 1) return name;
-  throw Error(Fault::Usage, fmt::format("out: found one file, '{}', but {} makes {}; expected a "
-                                        "folder, or {} in the name",
-                                        task.out, task.bake, sheet.files.size(), suffix_mark));
+  return map_file_name(task, file.name, usual_extension(sheet, file),
+                       names_an_image(task.out) || holds_levels(task.out), sheet.files.size());
 }
 
 void check_format(const MipSheet& sheet, const std::string& name) {
@@ -69,14 +56,6 @@ std::string with_level(const std::string& name, int level) {
   const std::string file =
       fmt::format("{}_{}{}", path.stem().string(), level, path.extension().string());
   return (path.parent_path() / file).generic_string();
-}
-
-PixelType type_of(const Task& task, const MipFile& file, const std::vector<PixelType>& held) {
-  if (task.output.type) return *task.output.type;
-  for (const PixelType type : held) {
-    if (pixel_type_name(type) == file.preferred_type) return type;
-  }
-  return held.front();
 }
 
 bool is_integer(PixelType type) { return type == PixelType::Uint8 || type == PixelType::Uint16; }
@@ -121,7 +100,7 @@ ColorTag tag_of(const File& file) {
 void open_texture(const fs::path& path, const Task& task, const MipSheet& sheet, const MipFile& map,
                   File& file) {
   const WritableTexture& format = growing_texture(path);
-  file.type = type_of(task, map, format.types);
+  file.type = held_type(task, map.preferred_type, format.types);
   file.color_to = color_of(map, file.type, format.name);
   TextureWriteOptions options;
   options.type = file.type;
@@ -134,7 +113,7 @@ void open_texture(const fs::path& path, const Task& task, const MipSheet& sheet,
 void open_images(const fs::path& folder, const Task& task, const MipSheet& sheet,
                  const MipFile& map, File& file) {
   const WritableFormat& format = writable_format(folder / file.names.front());
-  file.type = type_of(task, map, format.types);
+  file.type = held_type(task, map.preferred_type, format.types);
   file.color_to = color_of(map, file.type, format.name);
   WriteOptions options;
   options.type = file.type;
@@ -171,21 +150,14 @@ std::vector<File> open_files(const Plan& plan, const Task& task, const MipSheet&
   return files;
 }
 
-std::string clamping_note(const std::string& name, PixelType type, const WriteFacts& facts) {
-  return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
-                     fs::path(name).filename().string(), facts.clamped, pixel_type_name(type),
-                     facts.largest_clamped);
-}
-
 Written finish(std::vector<File>& files) {
   Written written;
   for (File& file : files) {
     for (size_t i = 0; i < file.names.size(); ++i) {
       const WriteFacts facts = file.texture ? file.texture->finish() : file.images[i]->finish();
       written.outputs.push_back(file.names[i]);
-      if (facts.clamped > 0) {
-        written.notes.push_back(clamping_note(file.names[i], file.type, facts));
-      }
+      const std::string note = clamping_note(file.names[i], file.type, facts);
+      if (!note.empty()) written.notes.push_back(note);
     }
   }
   return written;

@@ -135,10 +135,7 @@ std::string write_image_of(const Plan& plan, const Task& task, const Artifact& a
                            const fs::path& path, const ColorConfig& config) {
   const WriteOptions options = write_options(plan, task, artifact, path);
   const WriteFacts facts = write_product(plan, task, artifact, path, options, config);
-  if (facts.clamped == 0) return "";
-  return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
-                     path.filename().string(), facts.clamped, pixel_type_name(options.type),
-                     facts.largest_clamped);
+  return clamping_note(path, options.type, facts);
 }
 
 // The type of that name which the format holds.
@@ -206,6 +203,37 @@ std::string output_name(const Task& task, const Artifact& artifact) {
 }
 
 }  // namespace
+
+std::string map_file_name(const Task& task, const std::string& map, const std::string& extension,
+                          bool is_file, size_t files) {
+  constexpr std::string_view suffix_mark = "{suffix}";
+  std::string name = task.out;
+  if (const size_t mark = name.find(suffix_mark); mark != std::string::npos) {
+    name.replace(mark, suffix_mark.size(), map);
+    return fs::path(name).has_extension() ? name : name + extension;
+  }
+  if (!is_file) return (fs::path(name) / (map + extension)).lexically_normal().generic_string();
+  if (files == 1) return name;
+  throw Error(Fault::Usage, fmt::format("out: found one file, '{}', but {} makes {}; expected a "
+                                        "folder, or {} in the name",
+                                        task.out, task.bake, files, suffix_mark));
+}
+
+PixelType held_type(const Task& task, const std::string& preferred,
+                    const std::vector<PixelType>& held) {
+  if (task.output.type) return *task.output.type;
+  for (const PixelType type : held) {
+    if (pixel_type_name(type) == preferred) return type;
+  }
+  return held.front();
+}
+
+std::string clamping_note(const fs::path& path, PixelType type, const WriteFacts& facts) {
+  if (facts.clamped == 0) return "";
+  return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
+                     path.filename().string(), facts.clamped, pixel_type_name(type),
+                     facts.largest_clamped);
+}
 
 bool names_an_image(const fs::path& path) {
   const std::string extension = kebab(path.extension().string());

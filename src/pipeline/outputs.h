@@ -22,6 +22,23 @@ struct Written {
   std::vector<std::string> notes;
 };
 
+/// The name of a map's file below the output folder: the pattern `out` with "{suffix}" replaced, a
+/// file in the folder `out`, or `out` itself.
+/// @param extension  where `out` has none
+/// @param is_file    `out` names a file by its extension
+/// @param files      that the bake makes
+/// @error Fault::Usage when `out` names one file and the bake makes several
+std::string map_file_name(const Task& task, const std::string& map, const std::string& extension,
+                          bool is_file, size_t files);
+
+/// The type that the task asks for, else the preferred one where it is held, else the first held.
+PixelType held_type(const Task& task, const std::string& preferred,
+                    const std::vector<PixelType>& held);
+
+/// What is to be told of clamped values of a file; nothing where there are none.
+std::string clamping_note(const std::filesystem::path& path, PixelType type,
+                          const WriteFacts& facts);
+
 /// Writes what a task baked, each file whole or not at all.
 /// @param working  name of the working space
 Written write_outputs(const Plan& plan, const Task& task, const Baked& baked,

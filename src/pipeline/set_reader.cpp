@@ -88,7 +88,7 @@ SetReader::SetReader(const PlannedSet& set, const ColorChoice& color, const Colo
   for (const IgnoredFile& file : set.ignored) {
     record_.notes.push_back(fmt::format("{} is not used: {}", file.file, file.reason));
   }
-  open(needed_maps(needs));
+  open(maps_needed(set, needs));
   decide_size(needs);
   bands_.name = set.name;
   bands_.working = color.working;
@@ -104,15 +104,14 @@ SetReader::SetReader(const PlannedSet& set, const ColorChoice& color, const Colo
   };
 }
 
-// Maps that nothing reads affect neither size nor outcome: they are not even opened.
-std::vector<PlannedMap> SetReader::needed_maps(const MapNeeds& needs) const {
+std::vector<PlannedMap> maps_needed(const PlannedSet& set, const MapNeeds& needs) {
   std::vector<Slot> read = needs.stored, given;
-  for (const PlannedMap& map : set_.maps) given.push_back(map.slot);
+  for (const PlannedMap& map : set.maps) given.push_back(map.slot);
   if (needs.resolved) {
-    for (const Slot slot : slots_read(set_.reading.workflow, given)) read.push_back(slot);
+    for (const Slot slot : slots_read(set.reading.workflow, given)) read.push_back(slot);
   }
   std::vector<PlannedMap> needed;
-  for (const PlannedMap& map : set_.maps) {
+  for (const PlannedMap& map : set.maps) {
     if (needs.all || std::count(read.begin(), read.end(), map.slot)) needed.push_back(map);
   }
   return needed;
@@ -339,13 +338,18 @@ SlotMaps SetReader::stored(const MapRows& rows) const {
   return stored;
 }
 
+Layers SetReader::working_colors(const Map& map, const MapRows& rows) const {
+  Layers colors = as_rgb(picked(map, rows));
+  colors_to_working(colors, map.from, map.planned, config_, color_.working);
+  return colors;
+}
+
 SlotMaps SetReader::linear(const MapRows& rows) const {
   SlotMaps linear;
   for (const Map& map : maps_) {
     if (map.from.empty()) continue;
     SlotMap& filled = linear[map.planned.slot] = head(map);
-    filled.image = as_rgb(picked(map, rows));
-    colors_to_working(filled.image, map.from, map.planned, config_, color_.working);
+    filled.image = working_colors(map, rows);
     filled.image = fitted(map, std::move(filled.image), rows);
   }
   return linear;
@@ -357,11 +361,10 @@ Svbrdf SetReader::svbrdf(const MapRows& rows) const {
     const Map* map = find(slot);
     if (map == nullptr) continue;
     SlotMap& filled = read[slot] = head(*map);
-    filled.image = picked(*map, rows);
     if (!map->from.empty()) {
-      filled.image = as_rgb(std::move(filled.image));
-      colors_to_working(filled.image, map->from, map->planned, config_, color_.working);
+      filled.image = working_colors(*map, rows);
     } else {
+      filled.image = picked(*map, rows);
       decode_slot(slot, filled);
     }
     filled.image = fitted(*map, std::move(filled.image), rows);

@@ -14,6 +14,10 @@
 
 namespace kiln {
 
+/// The maps of a set that such needs read. Others affect neither size nor outcome: they are not
+/// even opened.
+std::vector<PlannedMap> maps_needed(const PlannedSet& set, const MapNeeds& needs);
+
 /// The maps of a set, read side by side from their first row to their last.
 class SetReader {
  public:
@@ -51,7 +55,6 @@ class SetReader {
     std::string from = {};                ///< colour space, of colours
   };
 
-  std::vector<PlannedMap> needed_maps(const MapNeeds& needs) const;
   void open(const std::vector<PlannedMap>& maps);
   void add(const PlannedMap& map);
   void add_constant(const PlannedMap& map);
@@ -67,6 +70,7 @@ class SetReader {
   Layers picked(const Map& map, const MapRows& rows) const;
   Layers fitted(const Map& map, Layers image, const MapRows& rows) const;
   SlotMaps stored(const MapRows& rows) const;
+  Layers working_colors(const Map& map, const MapRows& rows) const;
   SlotMaps linear(const MapRows& rows) const;
   Svbrdf svbrdf(const MapRows& rows) const;
   SlotMap head(const Map& map) const;

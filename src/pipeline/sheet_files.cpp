@@ -17,21 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view suffix_mark = "{suffix}";
 constexpr std::string_view srgb = "srgb_rec709_scene";
-
-PixelType type_of(const Task& task, const Artifact& artifact, const fs::path& path) {
-  if (task.output.type) return *task.output.type;
-  const WritableFormat& format = writable_format(path);
-  for (const PixelType held : format.types) {
-    if (pixel_type_name(held) == artifact.preferred_type) return held;
-  }
-  return format.types.front();
-}
 
 WriteOptions options_of(const Task& task, const Artifact& artifact, const fs::path& path) {
   WriteOptions options;
-  options.type = type_of(task, artifact, path);
+  options.type = held_type(task, artifact.preferred_type, writable_format(path).types);
   options.attributes = artifact.attributes;
   options.attributes.emplace_back("Software", software());
   options.attributes.emplace_back("colorInteropID",
@@ -57,7 +47,8 @@ struct File {
 std::vector<File> open_files(const Plan& plan, const Task& task, const MapSheet& sheet, Size size) {
   std::vector<File> files;
   for (const Artifact& artifact : sheet.files) {
-    const std::string name = map_file_name(task, artifact, sheet.files.size());
+    const std::string name = map_file_name(task, artifact.name, artifact.extension,
+                                           names_an_image(task.out), sheet.files.size());
     for (const File& other : files) {
       if (other.name == name) {
         throw Error(Fault::Usage,
@@ -72,12 +63,6 @@ std::vector<File> open_files(const Plan& plan, const Task& task, const MapSheet&
   return files;
 }
 
-std::string clamping_note(const File& file, const WriteFacts& facts) {
-  return fmt::format("{}: {} finite values beyond the range of {} were clamped, the largest {:.6g}",
-                     fs::path(file.name).filename().string(), facts.clamped,
-                     pixel_type_name(file.type), facts.largest_clamped);
-}
-
 /// A band, from what is read to what is written.
 struct Band {
   MapRows read;
@@ -85,24 +70,6 @@ struct Band {
 };
 
 }  // namespace
-
-std::string map_file_name(const Task& task, const Artifact& artifact, size_t files) {
-  std::string name = task.out;
-  const size_t mark = name.find(suffix_mark);
-  if (mark != std::string::npos) {
-    name.replace(mark, suffix_mark.size(), artifact.name);
-    return fs::path(name).has_extension() ? name : name + artifact.extension;
-  }
-  if (names_an_image(name)) {
-    if (files == 1) return name;
-    throw Error(Fault::Usage, fmt::format("out: found one file, '{}', but {} makes {}; expected a "
-                                          "folder, or {} in the name",
-                                          task.out, task.bake, files, suffix_mark));
-  }
-  return (fs::path(name) / (artifact.name + artifact.extension))
-      .lexically_normal()
-      .generic_string();
-}
 
 Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed) {
@@ -136,7 +103,8 @@ Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, S
   for (File& file : files) {
     const WriteFacts facts = file.writer->finish();
     written.outputs.push_back(file.name);
-    if (facts.clamped > 0) written.notes.push_back(clamping_note(file, facts));
+    const std::string note = clamping_note(file.name, file.type, facts);
+    if (!note.empty()) written.notes.push_back(note);
   }
   return written;
 }
