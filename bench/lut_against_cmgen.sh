@@ -16,16 +16,7 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Microseconds that a command takes.
-timed() {
-  local begin end
-  begin=$(date +%s%N)
-  "$@" > "$work/log" 2>&1
-  end=$(date +%s%N)
-  echo $(((end - begin) / 1000))
-}
-
-median() { sort -n "$1" | sed -n "$((($(wc -l < "$1") + 1) / 2))p"; }
+source bench/timing.sh
 
 compare() {
   local size=$1 count=$2 ours theirs

@@ -21,16 +21,7 @@ command -v oiiotool > /dev/null || {
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Microseconds that a command takes.
-timed() {
-  local begin end
-  begin=$(date +%s%N)
-  "$@" > "$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
-  end=$(date +%s%N)
-  echo $(((end - begin) / 1000))
-}
-
-median() { sort -n "$1" | sed -n "$((($(wc -l < "$1") + 1) / 2))p"; }
+source bench/timing.sh
 
 # The map of that slot.
 map_of() {

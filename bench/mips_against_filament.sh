@@ -27,16 +27,7 @@ done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Microseconds that a command takes.
-timed() {
-  local begin end
-  begin=$(date +%s%N)
-  "$@" > "$work/log" 2>&1
-  end=$(date +%s%N)
-  echo $(((end - begin) / 1000))
-}
-
-median() { sort -n "$1" | sed -n "$((($(wc -l < "$1") + 1) / 2))p"; }
+source bench/timing.sh
 
 oiiotool "$map" --ch R,G,B --resize 4096x4096 -d uint8 -o "$work/normal.png"
 mkdir "$work/theirs_levels"
