@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Lobe> lobes_of(const ChainPlan& plan) {
-  std::vector<Lobe> lobes;
+std::vector<FilterLobe> lobes_of(const ChainPlan& plan) {
+  std::vector<FilterLobe> lobes;
   for (size_t level = 1; level < plan.sizes.size(); ++level) {
     lobes.push_back({.alpha = square(plan.roughness[level])});
   }
@@ -31,7 +31,7 @@ struct Chain {
 };
 
 Chain compute(const Layers& source, const ChainPlan& plan) {
-  const std::vector<Lobe> lobes = lobes_of(plan);
+  const std::vector<FilterLobe> lobes = lobes_of(plan);
   Chain chain{average_over_texels(source, {.size = plan.sizes[0]}), {}};
   const Prefilter prefilter(source, lobes);
   for (size_t i = 0; i < lobes.size(); ++i) {
@@ -43,7 +43,7 @@ Chain compute(const Layers& source, const ChainPlan& plan) {
 
 std::vector<FilteredLevel> read_theirs(const fs::path& folder, const ChainPlan& plan) {
   std::vector<FilteredLevel> levels;
-  const std::vector<Lobe> lobes = lobes_of(plan);
+  const std::vector<FilterLobe> lobes = lobes_of(plan);
   for (size_t i = 0; i < lobes.size(); ++i) {
     levels.push_back({lobes[i], {.size = plan.sizes[i + 1]}, {}});
     for (const auto face : cube_face_names) {

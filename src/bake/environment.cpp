@@ -34,8 +34,8 @@ struct Computed {
   std::array<Vec3<double>, 9> shader;  ///< irradiance over pi as shaders sum it, likewise
 };
 
-std::vector<Lobe> lobes_of(const EnvironmentRecipe& recipe) {
-  std::vector<Lobe> lobes{Lobe{}};  // the clamped cosine, for irradiance
+std::vector<FilterLobe> lobes_of(const EnvironmentRecipe& recipe) {
+  std::vector<FilterLobe> lobes{FilterLobe{}};  // the clamped cosine, for irradiance
   for (const double roughness : recipe.plan.roughness) {
     if (roughness > 0) lobes.push_back(recipe.lobe(square(roughness)));
   }
@@ -70,7 +70,7 @@ Computed compute(const EnvironmentRecipe& recipe, const Light& light) {
     computed.specular.push_back(filtered.back().images);
   }
   const SphereGrid grid = recipe.grid(irradiance_size, light.rotate_deg);
-  filtered.push_back(filter.filter(Lobe{}, grid));
+  filtered.push_back(filter.filter(FilterLobe{}, grid));
   computed.irradiance = filtered.back().images;
   std::vector<FilterError> errors = filter.errors(filtered, luminance(computed.mean_radiance));
   computed.irradiance_error = errors.back();

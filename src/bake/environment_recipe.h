@@ -29,7 +29,7 @@ struct EnvironmentRecipe {
   SphereGrid grid(int size, double rotate_deg) const {
     return {layout, size, format.at_nodes, rotate_deg};
   }
-  Lobe lobe(double alpha) const { return {distribution, alpha, shape}; }
+  FilterLobe lobe(double alpha) const { return {distribution, alpha, shape}; }
 };
 
 /// What is given, else what the preset says, else the default.

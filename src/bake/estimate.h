@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kiln/integrate/sobol.h"
 #include "kiln/light/environment.h"
+#include "light_control.h"
+#include "preview_pixels.h"
 #include "shading_point.h"
 
 namespace kiln {
@@ -36,11 +37,15 @@ Vec3<F> reflect_distant(const ShadingPoint<F, Diffuse>& point, const AlbedoTable
   return (f.specular + f.diffuse) * irradiance * select(above, wi.z, F(0));
 }
 
-/// f L cos / (p_e + p_b) for the direction wi in the shading frame.
+/// (f cos - g) L / (p_e + p_b) for the direction wi in the shading frame. Below the horizon f is 0
+/// and only the environment's directions count, p_b = 0.
 template <class F, class Diffuse>
-Vec3<F> weigh_light(const ShadingPoint<F, Diffuse>& point, const AlbedoTable& table, Vec3<F> wi,
-                    const Vec3<F>& radiance, F light_density) {
+Vec3<F> weigh_light(const ShadingPoint<F, Diffuse>& point, const LightControl<F>& control,
+                    const AlbedoTable& table, Vec3<F> wi, const Vec3<F>& radiance,
+                    F light_density) {
+  const Vec3<F> known = control.toward(wi);
   const auto above = wi.z > F(1e-6);
+  const F cosine = select(above, wi.z, F(0));
   wi.z = max(wi.z, F(1e-6));
   const Vec3<F> wm = half_vector(point.wo, wi);
   const F d = point.surface.ggx.D(wm);
@@ -48,8 +53,8 @@ Vec3<F> weigh_light(const ShadingPoint<F, Diffuse>& point, const AlbedoTable& ta
                              point.specular_share);
   const Albedo<F> albedo{point.terms_o, table.terms(point.row, wi.z), point.average};
   const Reflected<F> f = point.surface.eval(point.wo, wi, wm, d, albedo);
-  const F weight = select(above, wi.z / (own_density + light_density), F(0));
-  return (f.specular + f.diffuse * point.occlusion) * radiance * weight;
+  const F weight = F(1) / (select(above, own_density, F(0)) + light_density);
+  return ((f.specular + f.diffuse * point.occlusion) * cosine - known) * radiance * weight;
 }
 
 /// A direction drawn from the texel's own density; it may lie below the horizon.
@@ -66,23 +71,22 @@ Vec3<F> sample_direction(const ShadingPoint<F, Diffuse>& point, const Vec2<F>& u
 
 /// Sum over the points [first, last) of the set; divide by their number for the radiance.
 template <class F, class Diffuse>
-Vec3<F> sum_points(const ShadingPoint<F, Diffuse>& point, const Environment& environment,
+Vec3<F> sum_points(const ShadingPoint<F, Diffuse>& point, const LightControl<F>& control,
+                   const Environment& environment,
                    const AlbedoTable& table, const SobolPoints& points, int first, int last,
                    const std::array<UintOf<F>, 4>& seeds) {
-  using U = UintOf<F>;
   Vec3<F> sum{F(0), F(0), F(0)};
   for (int i = first; i < last; ++i) {
-    const auto u = [&](int d) {
-      return unit_float(owen_scramble_reversed<U>(U(points[i][d]), seeds[d]));
-    };
-    const LightSample<F> light = environment.sample(Vec2<F>{u(0), u(1)});
-    sum += weigh_light(point, table, point.frame.to_local(light.direction), light.radiance,
-                       light.density);
-    const Vec3<F> wi = sample_direction(point, Vec2<F>{u(2), u(3)});
+    const std::array<F, 4> u = scrambled<F>(points[i], seeds);
+    const LightSample<F> light = environment.sample(Vec2<F>{u[0], u[1]});
+    sum += weigh_light(point, control, table, point.frame.to_local(light.direction),
+                       light.radiance, light.density);
+    const Vec3<F> wi = sample_direction(point, Vec2<F>{u[2], u[3]});
     const Arriving<F> own = environment.arriving(point.frame.to_world(wi));
-    sum += weigh_light(point, table, wi, own.radiance, own.density);
+    const Vec3<F> radiance = select(wi.z > F(1e-6), own.radiance, Vec3<F>{F(0), F(0), F(0)});
+    sum += weigh_light(point, control, table, wi, radiance, own.density);
   }
-  return sum;
+  return sum + control.light() * F(static_cast<float>(last - first));
 }
 
 }  // namespace kiln

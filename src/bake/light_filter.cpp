@@ -20,19 +20,19 @@ void clip_below_zero(std::vector<Layers>& images) {
 
 }  // namespace
 
-LightFilter::LightFilter(const Light& light, const std::vector<Lobe>& lobes) : light_(light) {
-  std::vector<Lobe> wide, narrow;
-  for (const Lobe& lobe : lobes) (sees_picture(lobe) ? narrow : wide).push_back(lobe);
+LightFilter::LightFilter(const Light& light, const std::vector<FilterLobe>& lobes) : light_(light) {
+  std::vector<FilterLobe> wide, narrow;
+  for (const FilterLobe& lobe : lobes) (sees_picture(lobe) ? narrow : wide).push_back(lobe);
   if (!wide.empty()) masses_.emplace(light.masses(), wide);
   if (!narrow.empty()) picture_.emplace(light.latlong, narrow);
 }
 
 // A lobe has about 8 / alpha bands, as many as the picture must have columns to show it.
-bool LightFilter::sees_picture(const Lobe& lobe) const {
+bool LightFilter::sees_picture(const FilterLobe& lobe) const {
   return light_.spread && 8 / lobe.alpha > light_.latlong.size.width;
 }
 
-FilteredLevel LightFilter::filter(const Lobe& lobe, const SphereGrid& grid) const {
+FilteredLevel LightFilter::filter(const FilterLobe& lobe, const SphereGrid& grid) const {
   if (sees_picture(lobe)) return {lobe, grid, picture_->filter(lobe, grid)};
   std::vector<Layers> images = masses_->filter(lobe, grid);
   if (light_.spread && light_.fixed.negative == 0) clip_below_zero(images);

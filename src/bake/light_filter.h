@@ -18,16 +18,16 @@ namespace kiln {
 class LightFilter {
  public:
   /// @param light  outlives this
-  LightFilter(const Light& light, const std::vector<Lobe>& lobes);
+  LightFilter(const Light& light, const std::vector<FilterLobe>& lobes);
 
-  FilteredLevel filter(const Lobe& lobe, const SphereGrid& grid) const;
+  FilteredLevel filter(const FilterLobe& lobe, const SphereGrid& grid) const;
 
   /// As filter_errors, against what each level is filtered from.
   std::vector<FilterError> errors(const std::vector<FilteredLevel>& levels,
                                   double mean_radiance) const;
 
  private:
-  bool sees_picture(const Lobe& lobe) const;
+  bool sees_picture(const FilterLobe& lobe) const;
 
   const Light& light_;
   std::optional<Prefilter> masses_, picture_;  ///< for the lobes that see each

@@ -7,6 +7,7 @@
 
 #include "kiln/bake/products.h"
 #include "kiln/image/sphere_image.h"
+#include "kiln/light/control_lobes.h"
 #include "kiln/light/environment.h"
 #include "kiln/light/irradiance.h"
 #include "kiln/light/radiance.h"
@@ -24,6 +25,7 @@ class Light {
   Fixed fixed;                             ///< what was found in the file
   std::vector<std::string> notes;          ///< how it was read
   std::optional<Environment> environment;  ///< when `sampled` was asked for
+  std::optional<ControlLobes> controls;    ///< then too
   std::optional<SpecularChain> chain;      ///< when `prefiltered` was
   std::optional<IrradianceMap> irradiance;
 

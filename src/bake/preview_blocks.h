@@ -23,7 +23,7 @@ struct PointRange {
 
 /// What lane_count pixels have gathered, summed over points.
 struct PixelSums {
-  std::array<Vec3<WideFloat>, repetitions> light{};
+  RepetitionSums light{};
   WideFloat carried = WideFloat(0.0f);  ///< of glass: throughput of the paths that left
   WideFloat trapped = WideFloat(0.0f);  ///< of glass: of which were ended inside
 };
@@ -87,7 +87,7 @@ void sample_blocks(const Renderer& renderer, const Sampling& sampling, Layers& i
     while (true) {
       block.for_vectors(image, [&](int x, int y, PixelSums& sums) {
         renderer.add(x, y, range, sums);
-        std::array<Vec3<WideFloat>, repetitions> means = sums.light;
+        RepetitionSums means = sums.light;
         const WideFloat scale(1.0f / static_cast<float>(std::max(range.last, 1)));
         for (Vec3<WideFloat>& mean : means) mean = mean * scale;
         const Estimate estimate = summarise(means);

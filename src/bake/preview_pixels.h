@@ -4,6 +4,7 @@
 #include <array>
 
 #include "kiln/image/layers.h"
+#include "kiln/integrate/sobol.h"
 #include "kiln/math/hash.h"
 #include "picture.h"
 
@@ -34,6 +35,26 @@ std::array<U, 4> repetition_seeds(U texel, std::uint32_t repetition) {
   }
   return seeds;
 }
+
+/// Four uniform numbers in [0,1) from a point of the set.
+template <class F>
+std::array<F, 4> scrambled(const std::array<std::uint32_t, 4>& point,
+                           const std::array<UintOf<F>, 4>& seeds) {
+  std::array<F, 4> u;
+  for (size_t d = 0; d < 4; ++d) {
+    u[d] = unit_float(owen_scramble_reversed<UintOf<F>>(UintOf<F>(point[d]), seeds[d]));
+  }
+  return u;
+}
+
+/// Points [first, last) of a set, to be scrambled anew for each repetition at each texel.
+struct ScrambledPoints {
+  const SobolPoints& set;
+  int first, last;
+  WideUint texels;  ///< hashes
+};
+
+using RepetitionSums = std::array<Vec3<WideFloat>, repetitions>;
 
 /// Three planes from `first_plane` on, lane_count<WideFloat> pixels from x on.
 void store_color(Layers& image, int first_plane, int x, int y, const Vec3<WideFloat>& color);

@@ -48,9 +48,21 @@ struct FusedShader {
   Point point(const TexelValues<F>& texel, const Placement<F>& placement) const {
     return make_shading_point<F, Diffuse>(texel, placement, albedo, energy);
   }
-  Vec3<F> sum(const Point& point, const SobolPoints& points, int first, int last,
-              const std::array<WideUint, 4>& seeds) const {
-    return sum_points(point, *light->environment, albedo, points, first, last, seeds);
+  void add_points(const Point& point, const ScrambledPoints& points, RepetitionSums& sums) const {
+    const LightControl<F> known = control(point);
+    for (std::uint32_t r = 0; r < repetitions; ++r) {
+      sums[r] += sum_points(point, known, *light->environment, albedo, points.set, points.first,
+                            points.last, repetition_seeds<WideUint>(points.texels, r));
+    }
+  }
+  LightControl<F> control(const Point& point) const {
+    const Vec3<F> single = single_reflectance(point);
+    const Vec3<F> total = point.surface.specular_reflectance(point.terms_o);
+    const F left = clamp(F(1) - max_component(total), F(0), F(1));
+    const Vec3<F> diffuse = point.surface.diffuse.albedo(point.wo.z) * left * point.occlusion;
+    const Ggx<F>& ggx = point.surface.ggx;
+    return make_light_control(*light->controls, point.frame, point.wo,
+                              sqrt(ggx.alpha_x * ggx.alpha_y), single, diffuse + total - single);
   }
   Vec3<F> reflected(const Point& point, const DistantLight& distant) const {
     return reflect_distant(point, albedo, distant.toward, distant.irradiance);
@@ -75,9 +87,16 @@ struct StagedShader {
   StagedPoint point(const TexelValues<F>& texel, const Placement<F>& placement) const {
     return make_staged_point(texel, placement, albedo, stages);
   }
-  Vec3<F> sum(const StagedPoint& point, const SobolPoints& points, int first, int last,
-              const std::array<WideUint, 4>& seeds) const {
-    return sum_points(point, stages, *light->environment, albedo, points, first, last, seeds);
+  LightControl<F> control(const StagedPoint& point) const {
+    const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
+    const Vec3<F> diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
+    return make_light_control(*light->controls, point.frame, point.wo,
+                              sqrt(point.alpha_x * point.alpha_y), point.single_o,
+                              diffuse + point.total_o - point.single_o);
+  }
+  void add_points(const StagedPoint& point, const ScrambledPoints& points,
+                  RepetitionSums& sums) const {
+    kiln::add_points(point, control(point), stages, *light->environment, albedo, points, sums);
   }
   Vec3<F> reflected(const StagedPoint& point, const DistantLight& distant) const {
     return reflect_distant(point, stages, albedo, distant.toward, distant.irradiance);
@@ -146,15 +165,12 @@ struct ReferenceRenderer {
 
   void add(int x, int y, const PointRange& range, PixelSums& sums) const {
     if (range.last == range.first) return;
-    const WideUint texels = texel_hashes(x, y, seed);
     const int share = (range.last - range.first) / picture.positions();
+    ScrambledPoints part{points, range.first, range.first + share, texel_hashes(x, y, seed)};
     for (int position = 0; position < picture.positions(); ++position) {
-      const auto point = point_at(picture, shader, x, y, position);
-      const int first = range.first + position * share;
-      for (std::uint32_t r = 0; r < repetitions; ++r) {
-        sums.light[r] +=
-            shader.sum(point, points, first, first + share, repetition_seeds<WideUint>(texels, r));
-      }
+      shader.add_points(point_at(picture, shader, x, y, position), part, sums.light);
+      part.first += share;
+      part.last += share;
     }
   }
   void finish(int x, int y, const PixelSums&, int) const {

@@ -33,27 +33,26 @@ WideVec sample_direction(const StagedPoint& point, const SurfaceStages& stages, 
 void append(DirectionBlock& block, WideVec wi, const WideVec& radiance, F light_density) {
   const auto above = wi.z > F(1e-6f);
   const int i = block.count++;
+  block.reached[i] = select(above, wi.z, F(0.0f));
   wi.z = max(wi.z, F(1e-6f));
   block.wi[i] = wi;
-  block.light[i] = select(above, radiance, WideVec{F(0.0f), F(0.0f), F(0.0f)});
+  block.light[i] = radiance;
   block.light_density[i] = light_density;
 }
 
-// One direction from the environment and one from the texel for each point.
-void fill_block(const StagedPoint& point, const SurfaceStages& stages,
-                const Environment& environment, const SobolPoints& points, int first, int last,
-                const std::array<WideUint, 4>& seeds, DirectionBlock& block) {
-  block.count = 0;
-  for (int i = first; i < last; ++i) {
-    const auto u = [&](int d) {
-      return unit_float(owen_scramble_reversed<WideUint>(WideUint(points[i][d]), seeds[d]));
-    };
-    const LightSample<F> light = environment.sample(Vec2<F>{u(0), u(1)});
-    append(block, point.frame.to_local(light.direction), light.radiance, light.density);
-    const WideVec wi = sample_direction(point, stages, {u(2), u(3)});
-    const Arriving<F> own = environment.arriving(point.frame.to_world(wi));
-    append(block, wi, own.radiance, own.density);
-  }
+// One direction from the environment and one from the texel.
+void append_pair(const StagedPoint& point, const LightControl<F>& control,
+                 const SurfaceStages& stages, const Environment& environment,
+                 const std::array<F, 4>& u, DirectionBlock& block) {
+  const LightSample<F> light = environment.sample(Vec2<F>{u[0], u[1]});
+  const WideVec toward = point.frame.to_local(light.direction);
+  block.known[block.count] = control.toward(toward);
+  append(block, toward, light.radiance, light.density);
+  const WideVec wi = sample_direction(point, stages, {u[2], u[3]});
+  const Arriving<F> own = environment.arriving(point.frame.to_world(wi));
+  block.known[block.count] = control.toward(wi);
+  append(block, wi, select(wi.z > F(1e-6f), own.radiance, WideVec{F(0.0f), F(0.0f), F(0.0f)}),
+         own.density);
 }
 
 void look_up(const StagedPoint& point, const AlbedoTable& table, DirectionBlock& block) {
@@ -73,13 +72,13 @@ void run_stages(const StagedPoint& point, const SurfaceStages& stages, const Alb
   stages.couple(point, block);
 }
 
-WideVec sum_block(const StagedPoint& point, const DirectionBlock& block) {
-  WideVec sum{F(0.0f), F(0.0f), F(0.0f)};
-  for (int i = 0; i < block.count; ++i) {
-    const F weight = block.wi[i].z / (block.own_density[i] + block.light_density[i]);
-    sum += (block.specular[i] + block.diffuse[i] * point.occlusion) * block.light[i] * weight;
-  }
-  return sum;
+// (f cos - g) L / (p_e + p_b) of one direction of a block.
+WideVec weigh_light(const StagedPoint& point, const DirectionBlock& block, int i) {
+  const F cosine = block.reached[i];
+  const F own_density = select(cosine > F(0.0f), block.own_density[i], F(0.0f));
+  const WideVec reflected =
+      (block.specular[i] + block.diffuse[i] * point.occlusion) * cosine - block.known[i];
+  return reflected * block.light[i] * (F(1.0f) / (own_density + block.light_density[i]));
 }
 
 }  // namespace
@@ -108,19 +107,31 @@ StagedPoint make_staged_point(const TexelValues<F>& texel, const Placement<F>& p
   return point;
 }
 
-WideVec sum_points(const StagedPoint& point, const SurfaceStages& stages,
-                   const Environment& environment, const AlbedoTable& table,
-                   const SobolPoints& points, int first, int last,
-                   const std::array<WideUint, 4>& seeds) {
-  constexpr int step = DirectionBlock::capacity / 2;
-  WideVec sum{F(0.0f), F(0.0f), F(0.0f)};
+// Directions of all repetitions fill blocks together, so that few points fill them too.
+void add_points(const StagedPoint& point, const LightControl<F>& control,
+                const SurfaceStages& stages, const Environment& environment,
+                const AlbedoTable& table, const ScrambledPoints& points, RepetitionSums& sums) {
+  const WideVec known = control.light() * F(static_cast<float>(points.last - points.first));
+  std::array<size_t, DirectionBlock::capacity> repetition;
   DirectionBlock block;
-  for (int from = first; from < last; from += step) {
-    fill_block(point, stages, environment, points, from, std::min(from + step, last), seeds, block);
+  const auto add_block = [&] {
     run_stages(point, stages, table, block);
-    sum += sum_block(point, block);
+    for (int i = 0; i < block.count; ++i) {
+      sums[repetition[static_cast<size_t>(i)]] += weigh_light(point, block, i);
+    }
+    block.count = 0;
+  };
+  for (size_t r = 0; r < sums.size(); ++r) {
+    sums[r] += known;
+    const auto seeds = repetition_seeds<WideUint>(points.texels, static_cast<std::uint32_t>(r));
+    for (int i = points.first; i < points.last; ++i) {
+      const auto at = static_cast<size_t>(block.count);
+      repetition[at] = repetition[at + 1] = r;
+      append_pair(point, control, stages, environment, scrambled<F>(points.set[i], seeds), block);
+      if (block.count == DirectionBlock::capacity) add_block();
+    }
   }
-  return sum;
+  if (block.count > 0) add_block();
 }
 
 WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
@@ -129,7 +140,7 @@ WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
   DirectionBlock block;
   append(block, point.frame.to_local(toward), irradiance, F(0.0f));
   run_stages(point, stages, table, block);
-  return (block.specular[0] + block.diffuse[0]) * block.light[0] * block.wi[0].z;
+  return (block.specular[0] + block.diffuse[0]) * block.light[0] * block.reached[0];
 }
 
 WideVec approximate(const StagedPoint& point, const SurfaceStages& stages, const Light& light) {

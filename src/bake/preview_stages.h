@@ -50,7 +50,9 @@ struct DirectionBlock {
   template <class T>
   using Of = std::array<T, capacity>;
   Of<Vec3<WideFloat>> wi;        ///< shading frame, raised above the horizon
-  Of<Vec3<WideFloat>> light;     ///< radiance, 0 below the horizon
+  Of<WideFloat> reached;         ///< cosine to the normal, 0 below the horizon
+  Of<Vec3<WideFloat>> light;     ///< radiance
+  Of<Vec3<WideFloat>> known;     ///< what the control variate reflects of it [1/sr]
   Of<WideFloat> light_density;   ///< of the environment's sampler [1/sr]
   Of<WideFloat> own_density;     ///< of the texel's own [1/sr]
   Of<WideFloat> cosine;          ///< wo.wm

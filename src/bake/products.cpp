@@ -94,6 +94,7 @@ LightMade make_light(SphereImage image, const LightSettings& settings) {
   } else {
     take_other(std::move(image), settings, *light);
   }
+  if (light->environment) light->controls.emplace(*light->environment);
   if (settings.prefiltered) {
     const ChainOptions options{settings.size, settings.rotate_deg};
     light->chain.emplace(light->latlong, options);

@@ -103,6 +103,16 @@ Vec3<F> engine_direction(const Vec3<F>& wo, F alpha_x, F alpha_y, F roughness) {
   return bent * (F(2) * dot(wo, bent)) - wo;
 }
 
+/// Reflectance of the lobe's first bounce toward the viewer.
+template <class F, class Diffuse>
+Vec3<F> single_reflectance(const ShadingPoint<F, Diffuse>& point) {
+  const auto& fresnel = point.surface.fresnel;
+  const auto channel = [&](const Schlick<F>& schlick) {
+    return fma(schlick.f0, point.terms_o.scale, schlick.f90 * point.terms_o.bias);
+  };
+  return {channel(fresnel.x), channel(fresnel.y), channel(fresnel.z)};
+}
+
 template <class F, class Diffuse>
 ShadingPoint<F, Diffuse> make_shading_point(const TexelValues<F>& texel,
                                             const Placement<F>& placement, const AlbedoTable& table,
@@ -122,8 +132,7 @@ ShadingPoint<F, Diffuse> make_shading_point(const TexelValues<F>& texel,
   const Diffuse diffuse{texel.diffuse_color, point.roughness};
   point.surface = Surface<F, Diffuse>::make(lobe.alpha_x, fresnel, diffuse, point.average, energy);
   point.surface.ggx = {lobe.alpha_x, lobe.alpha_y};
-  const Vec3<F> single =
-      texel.f0 * point.terms_o.scale + Vec3<F>{F(1), F(1), F(1)} * point.terms_o.bias;
+  const Vec3<F> single = single_reflectance(point);
   const Vec3<F> specular = point.surface.specular_reflectance(point.terms_o);
   const F left = max(F(1) - max_component(specular), F(0));
   const F spread = luminance(specular - single) + luminance(texel.diffuse_color) * left;

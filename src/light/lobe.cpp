@@ -7,17 +7,20 @@
 namespace kiln {
 namespace {
 
-/// Calls visit.operator()<Distribution>() for the one of that name.
-template <class Visit>
-void with_distribution(const std::string& name, Visit&& visit) {
+/// Calls visit(distribution) with what lobe_at takes for that lobe.
+template <class F, class Visit>
+void with_lobe(const FilterLobe& lobe, Visit&& visit) {
+  const F alpha = F(static_cast<ScalarOf<F>>(lobe.alpha));
+  if (lobe.masked) return visit(MaskedGgx<F>{alpha * alpha});
   bool found = false;
   Distributions::for_each([&]<template <class> class Distribution>() {
-    if (Distribution<double>::name != kebab(name)) return;
+    if (Distribution<double>::name != kebab(lobe.distribution)) return;
     found = true;
-    visit.template operator()<Distribution>();
+    visit(make_distribution<Distribution<F>>(alpha, alpha, lobe.shape));
   });
   if (!found) {
-    throw Error(Fault::Usage, unknown_name("distribution", name, model_names("distribution")));
+    throw Error(Fault::Usage,
+                unknown_name("distribution", lobe.distribution, model_names("distribution")));
   }
 }
 
@@ -55,12 +58,10 @@ MassSums sum_masses(const Distribution& distribution, const PointMasses& masses,
 
 }  // namespace
 
-std::vector<double> lobe_values(const Lobe& lobe, std::span<const double> s) {
+std::vector<double> lobe_values(const FilterLobe& lobe, std::span<const double> s) {
   std::vector<double> values;
   values.reserve(s.size());
-  with_distribution(lobe.distribution, [&]<template <class> class Distribution>() {
-    const auto distribution =
-        make_distribution<Distribution<double>>(lobe.alpha, lobe.alpha, lobe.shape);
+  with_lobe<double>(lobe, [&](const auto& distribution) {
     for (const double one : s) values.push_back(lobe_at(distribution, one));
   });
   return values;
@@ -84,12 +85,10 @@ void PointMasses::set(size_t at, const Vec3<double>& toward, const std::array<do
   for (size_t c = 0; c < 4; ++c) power[c][at] = static_cast<float>(of[c]);
 }
 
-void add_masses(const Lobe& lobe, const PointMasses& masses,
+void add_masses(const FilterLobe& lobe, const PointMasses& masses,
                 std::span<const Vec3<double>> directions, std::span<MassSums> sums) {
   if (masses.size() == 0) return;
-  with_distribution(lobe.distribution, [&]<template <class> class Distribution>() {
-    const WideFloat alpha(static_cast<float>(lobe.alpha));
-    const auto distribution = make_distribution<Distribution<WideFloat>>(alpha, alpha, lobe.shape);
+  with_lobe<WideFloat>(lobe, [&](const auto& distribution) {
     for (size_t i = 0; i < directions.size(); ++i) {
       const MassSums found = sum_masses(distribution, masses, directions[i]);
       for (size_t c = 0; c < 4; ++c) sums[i][c] += found[c];

@@ -7,6 +7,7 @@
 
 #include "kiln/brdf/ggx.h"
 #include "kiln/light/prefilter.h"
+#include "kiln/light/straight_lobe.h"
 #include "kiln/math/wide.h"
 
 namespace kiln {
@@ -34,8 +35,19 @@ F lobe_at(const Ggx<F>& distribution, F s) {
   return max(fma(F(-2), s, F(1)), F(0)) * (alpha2 * F(1 / pi)) / (base * base);
 }
 
+/// GGX with its masking toward w instead of the cosine (FilterLobe::masked).
+template <class F>
+struct MaskedGgx {
+  F alpha2;
+};
+
+template <class F>
+F lobe_at(const MaskedGgx<F>& lobe, F s) {
+  return straight_lobe(lobe.alpha2, fma(F(-2), s, F(1)), s);
+}
+
 /// K at each s in [0, 1].
-std::vector<double> lobe_values(const Lobe& lobe, std::span<const double> s);
+std::vector<double> lobe_values(const FilterLobe& lobe, std::span<const double> s);
 
 /// Directions with R, G, B and one more number each, side by side for wide numbers. Padded to whole
 /// ones by directions without power. A coordinate is the sum of a float and a rest, for near a
@@ -54,7 +66,7 @@ using MassSums = std::array<float, 4>;
 
 /// Adds the sum of K(d.w) power(w) over padded masses to sums[i], for each direction d.
 /// @accuracy  1e-6 of the sum of absolute terms for up to 4096 masses
-void add_masses(const Lobe& lobe, const PointMasses& masses,
+void add_masses(const FilterLobe& lobe, const PointMasses& masses,
                 std::span<const Vec3<double>> directions, std::span<MassSums> sums);
 
 }  // namespace kiln

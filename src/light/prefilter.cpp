@@ -62,8 +62,8 @@ std::array<bool, 3> never_negative(const ColorPlanes& latlong) {
   return {found[0] == 0, found[1] == 0, found[2] == 0};
 }
 
-void check_lobes(const std::vector<Lobe>& lobes) {
-  for (const Lobe& lobe : lobes) {
+void check_lobes(const std::vector<FilterLobe>& lobes) {
+  for (const FilterLobe& lobe : lobes) {
     if (lobe.alpha >= Prefilter::least_alpha && lobe.alpha <= 1) continue;
     throw Error(Fault::Usage,
                 fmt::format("a lobe of alpha {:.3g} (roughness {:.3g}) is asked for; environments "
@@ -73,9 +73,9 @@ void check_lobes(const std::vector<Lobe>& lobes) {
   }
 }
 
-double sharpest_of(const std::vector<Lobe>& lobes) {
+double sharpest_of(const std::vector<FilterLobe>& lobes) {
   double alpha = 1;
-  for (const Lobe& lobe : lobes) alpha = std::min(alpha, lobe.alpha);
+  for (const FilterLobe& lobe : lobes) alpha = std::min(alpha, lobe.alpha);
   return alpha;
 }
 
@@ -110,7 +110,7 @@ Refinement refinement_for(Size source, int order) {
 struct Prefilter::Expanded {
   Layers finer_source;  ///< empty where the source itself is fine enough
   ColorPlanes source;
-  std::vector<Lobe> lobes;
+  std::vector<FilterLobe> lobes;
   std::vector<ZonalKernel> kernels;
   std::vector<LegendreColumn> columns;
   PointMasses hot;
@@ -119,14 +119,14 @@ struct Prefilter::Expanded {
   Layers weights;  ///< plane W of the source, where it has one
   std::unique_ptr<Prefilter> of_weights;
 
-  const ZonalKernel& kernel_of(const Lobe& lobe) const {
+  const ZonalKernel& kernel_of(const FilterLobe& lobe) const {
     const auto found = std::find(lobes.begin(), lobes.end(), lobe);
     if (found == lobes.end()) throw Error(Fault::Internal, "a lobe was not announced");
     return kernels[static_cast<size_t>(found - lobes.begin())];
   }
 };
 
-Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
+Prefilter::Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes)
     : expanded_(std::make_unique<Expanded>()) {
   check_lobes(lobes);
   Expanded& made = *expanded_;
@@ -138,7 +138,7 @@ Prefilter::Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes)
   const int bands = static_cast<int>(std::ceil(8 / sharpest));
   const int most = std::min(highest_order, std::max(bands, latlong.size.width - 1));
   for_rows(static_cast<int>(lobes.size()), [&](int i) {
-    const Lobe& lobe = lobes[static_cast<size_t>(i)];
+    const FilterLobe& lobe = lobes[static_cast<size_t>(i)];
     made.kernels[static_cast<size_t>(i)] = expand_lobe(
         lobe,
         std::min(sharpest_cut_off(sharpest) * std::sqrt(lobe.alpha / sharpest), widest_cut_off),
@@ -168,7 +168,11 @@ Size Prefilter::source_size() const { return expanded_->source.size; }
 Prefilter::~Prefilter() = default;
 Prefilter::Prefilter(Prefilter&&) noexcept = default;
 
-std::vector<Layers> Prefilter::filter(const Lobe& lobe, const SphereGrid& grid) const {
+double Prefilter::integral_of(const FilterLobe& lobe) const {
+  return expanded_->kernel_of(lobe).integral;
+}
+
+std::vector<Layers> Prefilter::filter(const FilterLobe& lobe, const SphereGrid& grid) const {
   const ZonalKernel& kernel = expanded_->kernel_of(lobe);
   const SphereField field = convolve(expanded_->expansion, expanded_->columns, kernel);
   const auto scale = static_cast<float>(1 / kernel.integral);

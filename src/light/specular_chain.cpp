@@ -48,7 +48,7 @@ SpecularChain::SpecularChain(const Layers& latlong, const ChainOptions& options)
   sizes_ = plan.sizes;
   roughness_ = plan.roughness;
   long long numbers = 0;
-  std::vector<Lobe> lobes;
+  std::vector<FilterLobe> lobes;
   for (int level = 0; level < levels(); ++level) {
     const int stride = size(level) + 2;
     edges_.push_back(static_cast<float>(size(level)));
@@ -62,7 +62,7 @@ SpecularChain::SpecularChain(const Layers& latlong, const ChainOptions& options)
   if (lobes.empty()) return;
   const Prefilter prefilter(latlong, lobes);
   for (int level = 1; level < levels(); ++level) {
-    const Lobe& lobe = lobes[static_cast<size_t>(level) - 1];
+    const FilterLobe& lobe = lobes[static_cast<size_t>(level) - 1];
     store_level(level, prefilter.filter(lobe, {.size = size(level)}));
   }
 }

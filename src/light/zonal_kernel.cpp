@@ -59,7 +59,7 @@ void add_panel(const Panel& cosine, const Panel& terms, std::vector<WideDouble>&
 }
 
 // 2 pi times the integral of K(cos t) P_l(cos t) sin t.
-std::vector<double> integrate_bands(const Lobe& lobe, int order) {
+std::vector<double> integrate_bands(const FilterLobe& lobe, int order) {
   const Nodes nodes = place_nodes(lobe.alpha, order);
   std::vector<double> s, cosine;
   for (const double theta : nodes.theta) {
@@ -95,7 +95,7 @@ size_t bands_above(const std::vector<double>& bands, double cut_off) {
 
 }  // namespace
 
-ZonalKernel expand_lobe(const Lobe& lobe, double cut_off, int highest_order) {
+ZonalKernel expand_lobe(const FilterLobe& lobe, double cut_off, int highest_order) {
   // Far beyond any useful band for the lobe, yet short of it for the widest, whose edge at the
   // horizon alone needs more.
   const int generous = std::max(256, static_cast<int>(std::ceil(16 / lobe.alpha)));

@@ -18,6 +18,6 @@ struct ZonalKernel {
 /// Expands a lobe (lobe_at), and cuts it at the first band beyond which neglected energy,
 /// sum (2l + 1) k_l^2, is below cut_off^2 of the whole, or at highest_order.
 /// @valid alpha in [1e-3, 1]
-ZonalKernel expand_lobe(const Lobe& lobe, double cut_off, int highest_order);
+ZonalKernel expand_lobe(const FilterLobe& lobe, double cut_off, int highest_order);
 
 }  // namespace kiln

@@ -55,6 +55,10 @@ class Environment {
   template <class F>
   Vec3<F> radiance(const Vec3<F>& d) const;
 
+  /// Radiance at the point (u, v) in [0,1]^2 of the image, rotation not applied.
+  template <class F>
+  Vec3<F> radiance_in_image(Vec2<F> uv) const;
+
   /// Density of sample() at the unit direction d [1/sr].
   template <class F>
   F density(const Vec3<F>& d) const;
@@ -87,8 +91,6 @@ class Environment {
   template <class F>
   Vec2<F> to_image(const Vec3<F>& d) const;
   template <class F>
-  Vec3<F> radiance_at(Vec2<F> uv) const;
-  template <class F>
   F density_at(Vec2<F> uv) const;
   template <class F>
   Vec2<LaneIndex<F>> cell_of(Vec2<F> uv) const;
@@ -117,7 +119,7 @@ Vec2<F> Environment::to_image(const Vec3<F>& d) const {
 }
 
 template <class F>
-Vec3<F> Environment::radiance_at(Vec2<F> uv) const {
+Vec3<F> Environment::radiance_in_image(Vec2<F> uv) const {
   return texels_.bilinear(
       Vec2<F>{fma(uv.x, F(scale_.x), F(offset_.x)), fma(uv.y, F(scale_.y), F(offset_.y))});
 }
@@ -131,7 +133,7 @@ Vec2<LaneIndex<F>> Environment::cell_of(Vec2<F> uv) const {
 
 template <class F>
 Vec3<F> Environment::radiance(const Vec3<F>& d) const {
-  return radiance_at(to_image(d));
+  return radiance_in_image(to_image(d));
 }
 
 template <class F>
@@ -148,7 +150,7 @@ F Environment::density(const Vec3<F>& d) const {
 template <class F>
 Arriving<F> Environment::arriving(const Vec3<F>& d) const {
   const Vec2<F> uv = to_image(d);
-  return {radiance_at(uv), density_at(uv)};
+  return {radiance_in_image(uv), density_at(uv)};
 }
 
 // Moves `at` to the last of 2^steps ascending entries that is not above u, `low` to its value.
@@ -216,7 +218,7 @@ LightSample<F> Environment::sample(Vec2<F> u) const {
   const LaneIndex<F> x = select_index<F>(uniform, anywhere.x, column.index) + one;
   const LaneIndex<F> y = select_index<F>(uniform, anywhere.y, row.index) + one;
   return {{-azimuth.sine * sine, cosine, azimuth.cosine * sine},
-          radiance_at(uv),
+          radiance_in_image(uv),
           texels_.fourth<F>(x, y)};
 }
 

@@ -14,7 +14,7 @@ struct FilterError {
 
 /// A filtered level as Prefilter::filter made it.
 struct FilteredLevel {
-  Lobe lobe;
+  FilterLobe lobe;
   SphereGrid grid;
   std::vector<Layers> images;
 };

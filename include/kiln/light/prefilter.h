@@ -11,17 +11,18 @@
 namespace kiln {
 
 /// The shape of a filter: an isotropic distribution of microfacet normals.
-struct Lobe {
+struct FilterLobe {
   std::string distribution = "ggx";
   double alpha = 1;  ///< (0, 1]
   double shape = 0;  ///< of distributions that have one; 0: its default
+  bool masked = false;  ///< GGX with K = straight_lobe(), else K as of Prefilter
 
-  bool operator==(const Lobe&) const = default;
+  bool operator==(const FilterLobe&) const = default;
 };
 
 /// Directions to look in with a lobe.
 struct LobeProbe {
-  Lobe lobe;
+  FilterLobe lobe;
   std::vector<Vec3<double>> directions;  ///< unit
 };
 
@@ -52,7 +53,7 @@ class Prefilter {
   /// @param lobes    those that will be asked for
   /// @error Fault::Input when the image is empty or has neither one nor three colours;
   ///        Fault::Usage when a lobe is narrower than least_alpha, or its distribution unknown
-  Prefilter(const Layers& latlong, const std::vector<Lobe>& lobes);
+  Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes);
   ~Prefilter();
   Prefilter(Prefilter&&) noexcept;
 
@@ -60,7 +61,10 @@ class Prefilter {
   Size source_size() const;
 
   /// The filtered environment at the samples of a grid: one image or six faces.
-  std::vector<Layers> filter(const Lobe& lobe, const SphereGrid& grid) const;
+  std::vector<Layers> filter(const FilterLobe& lobe, const SphereGrid& grid) const;
+
+  /// Integral of K of one of the lobes over the sphere [sr].
+  double integral_of(const FilterLobe& lobe) const;
 
   /// What filter() approximates, texel by texel of the source: R, G, B for each direction of each
   /// probe.

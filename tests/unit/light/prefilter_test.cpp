@@ -42,7 +42,7 @@ TEST(Prefilter, IsNearBruteForceForSizesThatAreNoPowersOfTwo) {
 
 TEST(Prefilter, FirstMakesACoarseSourceFinerForASharpLobe) {
   const Layers image = test::sunny_environment({32, 16}, 30);
-  const Lobe sharp{.alpha = 0.02};
+  const FilterLobe sharp{.alpha = 0.02};
   const Refinement times = refinement_for(image.size, 300);
   EXPECT_GE(32 * times.across, 301);
   const std::vector<Vec3<double>> directions = {test::random_direction(0, 1),
@@ -62,7 +62,7 @@ TEST(Prefilter, FiltersWithEveryListedDistribution) {
   const double mean = mean_radiance(image).y;
   for (const std::string& name : model_names("distribution")) {
     for (const double alpha : {0.1, 0.6}) {
-      const Lobe lobe{name, alpha};
+      const FilterLobe lobe{name, alpha};
       const Prefilter prefilter(image, {lobe});
       const FilteredLevel level{
           lobe, {SphereLayout::Cube, 32}, prefilter.filter(lobe, {SphereLayout::Cube, 32})};
@@ -76,7 +76,7 @@ TEST(Prefilter, FiltersWithEveryListedDistribution) {
 
 TEST(Prefilter, IsTheSameFunctionInEveryLayout) {
   const Layers image = test::sunny_environment({256, 128}, 100);
-  const Lobe lobe{.alpha = 0.2};
+  const FilterLobe lobe{.alpha = 0.2};
   const Prefilter prefilter(image, {lobe});
   for (const SphereLayout layout :
        {SphereLayout::Cube, SphereLayout::LatLong, SphereLayout::Octahedral}) {
@@ -93,7 +93,7 @@ TEST(Prefilter, KeepsTheMeanOverTheSphereOfWideLobes) {
   const Layers image = test::sunny_environment({256, 128}, 1e4);
   const double mean = mean_radiance(image).y;
   for (const double alpha : {0.09, 0.25, 1.0}) {
-    const Lobe lobe{.alpha = alpha};
+    const FilterLobe lobe{.alpha = alpha};
     const auto latlong = Prefilter(image, {lobe}).filter(lobe, {SphereLayout::LatLong, 64});
     EXPECT_NEAR(mean_radiance(latlong[0]).y, mean, 1e-4 * mean) << alpha;
   }
@@ -101,7 +101,7 @@ TEST(Prefilter, KeepsTheMeanOverTheSphereOfWideLobes) {
 
 TEST(Prefilter, OfTheWidestLobeIsIrradianceOverPi) {
   const Layers image = test::sunny_environment({256, 128}, 100);
-  const Lobe cosine{.alpha = 1};
+  const FilterLobe cosine{.alpha = 1};
   const auto faces = Prefilter(image, {cosine}).filter(cosine, {SphereLayout::Cube, 8});
   for (int face = 0; face < 6; ++face) {
     const Vec3<double> n =
@@ -153,7 +153,7 @@ TEST(Prefilter, KeepsNegativeRadianceLinear) {
 TEST(Prefilter, ShowsTheTurnedEnvironmentInATurnedGrid) {
   // What was at +Z is seen at +X: that face is the other, texel for texel.
   const Layers image = test::sunny_environment({256, 128}, 100);
-  const Lobe lobe{.alpha = 0.1};
+  const FilterLobe lobe{.alpha = 0.1};
   const Prefilter prefilter(image, {lobe});
   const auto filtered = [&](double rotate_deg) {
     return prefilter.filter(lobe, {.size = 16, .rotate_deg = rotate_deg});
@@ -186,7 +186,7 @@ TEST(Prefilter, OfACubesPointMassesIsNearItsOwnTexelsByBruteForce) {
     }
   }
   const Layers masses = point_masses_of(cube_image(faces));
-  const Lobe lobe{.alpha = 0.3};
+  const FilterLobe lobe{.alpha = 0.3};
   const auto found = Prefilter(masses, {lobe}).filter(lobe, {.size = 8});
   for (int face = 0; face < 6; ++face) {
     const Vec3<double> d = direction_of(SphereLayout::Cube, face, {2.5 / 8, 5.5 / 8});
@@ -211,9 +211,9 @@ TEST(Prefilter, KeepsTheConstantOfACubesPointMasses) {
     for (Layer& layer : face.layers) layer.plane = Plane(face.size, 0.7f);
   }
   const Layers masses = point_masses_of(cube_image(faces));
-  const Lobe sharp{.alpha = 0.05}, wide{.alpha = 1};
+  const FilterLobe sharp{.alpha = 0.05}, wide{.alpha = 1};
   const Prefilter prefilter(masses, {sharp, wide});
-  for (const Lobe& lobe : {sharp, wide}) {
+  for (const FilterLobe& lobe : {sharp, wide}) {
     for (const Layers& image : prefilter.filter(lobe, {.size = 16})) {
       for (int y = 0; y < 16; ++y) {
         for (const float value : image.layers[2].plane.texels_of_row(y)) {

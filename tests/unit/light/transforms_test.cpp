@@ -99,7 +99,7 @@ TEST(ZonalKernel, AddsUpToTheLobe) {
   }
 }
 
-TEST(Lobe, OfGgxIsThatOfItsDensityOfNormals) {
+TEST(FilterLobe, OfGgxIsThatOfItsDensityOfNormals) {
   for (const double alpha : {0.004, 0.1, 1.0}) {
     const Ggx<double> ggx = Ggx<double>::isotropic(alpha);
     for (const double s : {0.0, 1e-5, 0.01, 0.3, 0.49, 0.6}) {
