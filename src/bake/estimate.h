@@ -72,15 +72,15 @@ Vec3<F> sample_direction(const ShadingPoint<F, Diffuse>& point, const Vec2<F>& u
 /// Sum over the points [first, last) of the set; divide by their number for the radiance.
 template <class F, class Diffuse>
 Vec3<F> sum_points(const ShadingPoint<F, Diffuse>& point, const LightControl<F>& control,
-                   const Environment& environment,
-                   const AlbedoTable& table, const SobolPoints& points, int first, int last,
+                   const Environment& environment, const AlbedoTable& table,
+                   const SobolPoints& points, int first, int last,
                    const std::array<UintOf<F>, 4>& seeds) {
   Vec3<F> sum{F(0), F(0), F(0)};
   for (int i = first; i < last; ++i) {
     const std::array<F, 4> u = scrambled<F>(points[i], seeds);
     const LightSample<F> light = environment.sample(Vec2<F>{u[0], u[1]});
-    sum += weigh_light(point, control, table, point.frame.to_local(light.direction),
-                       light.radiance, light.density);
+    sum += weigh_light(point, control, table, point.frame.to_local(light.direction), light.radiance,
+                       light.density);
     const Vec3<F> wi = sample_direction(point, Vec2<F>{u[2], u[3]});
     const Arriving<F> own = environment.arriving(point.frame.to_world(wi));
     const Vec3<F> radiance = select(wi.z > F(1e-6), own.radiance, Vec3<F>{F(0), F(0), F(0)});

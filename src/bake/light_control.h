@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdlib>
 #include "kiln/light/control_lobes.h"
 #include "kiln/math/frame.h"
 
@@ -54,9 +53,8 @@ LightControl<F> make_light_control(const ControlLobes& lobes, const Frame<F>& fr
   control.cosine = lobes.cosines(frame.z);
   turn_into(frame, control.lobe.around);
   turn_into(frame, control.cosine.around);
-  static const float on = getenv("NOCV") ? 0.0f : 1.0f;
-  control.specular = specular * usable * F(on);
-  control.diffuse = diffuse * F(on);
+  control.specular = specular * usable;
+  control.diffuse = diffuse;
   return control;
 }
 

@@ -174,7 +174,7 @@ Needs PreviewBake::needs(const Settings& settings) {
   return {.material = true,
           .material_for = texels_read(settings),
           .light = true,
-          .sampled = true,
+          .sampled = settings.mode != Mode::SplitSum,
           .prefiltered = settings.mode != Mode::Reference,
           .albedo = true,
           .own_lights = !settings.lights.empty()};

@@ -15,24 +15,36 @@ namespace {
 int rows_for(double alpha) { return std::max(16, static_cast<int>(std::ceil(8 / alpha))); }
 constexpr int cosine_rows = 32;
 
-// So many texels from pole to pole hold what lies between those of the source, as it is looked up.
-constexpr int enough_rows = 2048;
+// Rows and columns that hold what lies between the texels of the source, as it is looked up: along
+// a row straight lines are expanded exactly, from row to row they are sampled.
+constexpr int enough_rows = 2048, enough_columns = 512;
 
-/// The environment as it is looked up, at texel centres so many times finer each way.
+// Even, so that texels do not straddle what is bent.
+int times_for(int found, int enough) {
+  return found >= enough ? 1 : ((enough + found - 1) / found + 1) / 2 * 2;
+}
+
+/// The environment as it is looked up, at the texel centres of a finer image.
 Layers looked_up(const Environment& environment) {
+  using F = WideFloat;
   const Size cells = environment.cells();
-  const int even = (enough_rows / cells.height + 1) / 2 * 2;
-  const int times = std::max(even, 1);
-  Layers image = make_layers({cells.width * times, cells.height * times}, {"R", "G", "B"});
-  const auto across = 1 / static_cast<float>(image.size.width);
+  const int across = environment.is_node_aligned()
+                         ? std::max(2, times_for(cells.width, enough_columns))
+                         : times_for(cells.width, enough_columns);
+  Layers image = make_layers(
+      {cells.width * across, cells.height * times_for(cells.height, enough_rows)}, {"R", "G", "B"});
+  const F texel(1 / static_cast<float>(image.size.width));
+  float centres[lane_count<F>];
+  for (int i = 0; i < lane_count<F>; ++i) centres[i] = static_cast<float>(i) + 0.5f;
+  const F first = load_lanes<F>(centres);
   for_rows(image.size.height, [&](int y) {
-    const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(image.size.height);
-    for (int x = 0; x < image.size.width; ++x) {
-      const Vec3<float> radiance =
-          environment.radiance_in_image(Vec2<float>{(static_cast<float>(x) + 0.5f) * across, v});
-      image.layers[0].plane.at(x, y) = radiance.x;
-      image.layers[1].plane.at(x, y) = radiance.y;
-      image.layers[2].plane.at(x, y) = radiance.z;
+    const F v((static_cast<float>(y) + 0.5f) / static_cast<float>(image.size.height));
+    for (int x = 0; x < image.size.width; x += lane_count<F>) {
+      const Vec3<F> radiance = environment.radiance_in_image(
+          Vec2<F>{min((first + F(static_cast<float>(x))) * texel, F(1.0f)), v});
+      store_lanes(image.layers[0].plane.row(y) + x, radiance.x);
+      store_lanes(image.layers[1].plane.row(y) + x, radiance.y);
+      store_lanes(image.layers[2].plane.row(y) + x, radiance.z);
     }
   });
   return image;
@@ -53,7 +65,7 @@ ControlLobes::ControlLobes(const Environment& environment) : turn_(environment.r
   std::vector<FilterLobe> all = lobes;
   all.push_back(cosine);
   const Layers source = looked_up(environment);
-  const Prefilter filtered(source, all);
+  const Prefilter filtered(source, all, Across::Straight);
   for (const FilterLobe& lobe : lobes) {
     per_integral_.push_back(static_cast<float>(1 / filtered.integral_of(lobe)));
   }
@@ -63,7 +75,8 @@ ControlLobes::ControlLobes(const Environment& environment) : turn_(environment.r
   add_grid(filtered, {cosine, cosine}, cosine_rows);
 }
 
-void ControlLobes::add_grid(const Prefilter& filtered, const std::array<FilterLobe, 2>& lobes, int rows) {
+void ControlLobes::add_grid(const Prefilter& filtered, const std::array<FilterLobe, 2>& lobes,
+                            int rows) {
   const SphereGrid grid{.layout = SphereLayout::LatLong, .size = rows, .at_nodes = true};
   const size_t first = nodes_.size();
   rows_.push_back(static_cast<float>(rows));
@@ -73,7 +86,8 @@ void ControlLobes::add_grid(const Prefilter& filtered, const std::array<FilterLo
     const Layers image = filtered.filter(lobes[width], grid).front();
     for (int y = 0; y < rows; ++y) {
       float* row = nodes_.data() + first +
-                   static_cast<size_t>(y) * static_cast<size_t>(2 * rows) * node_numbers + 4 * width;
+                   static_cast<size_t>(y) * static_cast<size_t>(2 * rows) * node_numbers +
+                   4 * width;
       for (size_t c = 0; c < 3; ++c) {
         const float* from = image.layers[c].plane.row(y);
         for (int x = 0; x < 2 * rows; ++x) row[x * node_numbers + static_cast<int>(c)] = from[x];

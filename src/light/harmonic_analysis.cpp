@@ -45,14 +45,22 @@ struct Rings {
   const PowerLimit& limit;
   RingPairs pairs;
   Fourier fourier;
-  std::vector<double> turn_re, turn_im;  ///< exp(-i m pi / width): from the first texel to its edge
+  /// exp(-i m pi / width), from the first texel to its edge, times what interpolation leaves.
+  std::vector<double> turn_re, turn_im;
 };
 
-Rings make_rings(const ColorPlanes& image, const PowerLimit& limit, int order) {
+double left_by(Across across, double half_texels_rad) {
+  if (across == Across::Nothing || half_texels_rad == 0) return 1;
+  return square(std::sin(half_texels_rad) / half_texels_rad);
+}
+
+Rings make_rings(const ColorPlanes& image, Across across, const PowerLimit& limit, int order) {
   Rings rings{image, limit, RingPairs(image.size.height), Fourier(image.size.width), {}, {}};
   for (int m = 0; m <= order; ++m) {
-    rings.turn_re.push_back(std::cos(pi * m / image.size.width));
-    rings.turn_im.push_back(-std::sin(pi * m / image.size.width));
+    const double half_texels_rad = pi * m / image.size.width;
+    const double left = left_by(across, half_texels_rad);
+    rings.turn_re.push_back(left * std::cos(half_texels_rad));
+    rings.turn_im.push_back(-left * std::sin(half_texels_rad));
   }
   return rings;
 }
@@ -222,10 +230,10 @@ std::vector<double> analyse_constant(Size size, const RingPairs& rings,
 
 }  // namespace
 
-Expansion analyse(const ColorPlanes& latlong, const PowerLimit& limit,
+Expansion analyse(const ColorPlanes& latlong, Across across, const PowerLimit& limit,
                   const std::vector<LegendreColumn>& columns) {
   const int order = static_cast<int>(columns.size()) - 1;
-  const Rings rings = make_rings(latlong, limit, order);
+  const Rings rings = make_rings(latlong, across, limit, order);
   const RingSpectra spectra = transform_rings(rings, columns);
   Expansion result{order, {}, analyse_constant(latlong.size, rings.pairs, columns.front())};
   result.columns.resize(columns.size());

@@ -6,6 +6,7 @@
 
 #include "color_planes.h"
 #include "hot_texels.h"
+#include "kiln/light/prefilter.h"
 #include "legendre.h"
 
 namespace kiln {
@@ -23,10 +24,12 @@ struct Expansion {
 
 /// a_lm = sum over texels of radiance times conj(Y_lm) times solid angle, which is exact for the
 /// point masses whatever the order.
+/// @param across   Straight spreads each texel over its neighbours as linear interpolation does,
+///                 exactly: on a ring that multiplies wave m by sinc^2(m / width)
 /// @param limit    texels with more power are left out, colour by colour
 /// @param columns  of all m up to the order
 /// @valid order < width, order < 1900
-Expansion analyse(const ColorPlanes& latlong, const PowerLimit& limit,
+Expansion analyse(const ColorPlanes& latlong, Across across, const PowerLimit& limit,
                   const std::vector<LegendreColumn>& columns);
 
 }  // namespace kiln

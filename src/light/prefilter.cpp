@@ -30,13 +30,34 @@ constexpr int highest_order = 1800;
 
 /// What the expansion leaves out. A texel whose share of a colour's power exceeds the limit would,
 /// through the cut of the expansion, ring visibly around itself.
-PointMasses masses_of(Size size, const std::vector<HotTexel>& texels) {
+/// Shares of a texel's power and how far from its centre they lie [texel].
+struct Spread {
+  std::vector<double> share, offset;
+};
+
+// The tent of linear interpolation as eight masses.
+Spread spread_of(Across across) {
+  if (across == Across::Nothing) return {{1}, {0}};
+  Spread spread;
+  for (int i = 0; i < 8; ++i) {
+    spread.offset.push_back((i + 0.5) / 4 - 1);
+    spread.share.push_back(0.25 * (1 - std::abs(spread.offset.back())));
+  }
+  return spread;
+}
+
+PointMasses masses_of(Size size, const std::vector<HotTexel>& texels, Across across) {
+  const Spread spread = spread_of(across);
+  const size_t parts = spread.share.size();
   PointMasses masses;
-  masses.reset(texels.size());
-  for (size_t i = 0; i < texels.size(); ++i) {
-    const HotTexel& texel = texels[i];
-    const Vec2<double> uv{(texel.x + 0.5) / size.width, (texel.y + 0.5) / size.height};
-    masses.set(i, latlong_to_direction(uv), {texel.power[0], texel.power[1], texel.power[2], 0});
+  masses.reset(texels.size() * parts);
+  for (size_t i = 0; i < texels.size() * parts; ++i) {
+    const HotTexel& texel = texels[i / parts];
+    const double share = spread.share[i % parts];
+    const Vec2<double> uv{(texel.x + 0.5 + spread.offset[i % parts]) / size.width,
+                          (texel.y + 0.5) / size.height};
+    masses.set(i, latlong_to_direction(uv),
+               {share * texel.power[0], share * texel.power[1], share * texel.power[2], 0});
   }
   return masses;
 }
@@ -126,7 +147,7 @@ struct Prefilter::Expanded {
   }
 };
 
-Prefilter::Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes)
+Prefilter::Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes, Across across)
     : expanded_(std::make_unique<Expanded>()) {
   check_lobes(lobes);
   Expanded& made = *expanded_;
@@ -154,8 +175,8 @@ Prefilter::Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes
   made.columns = legendre_columns(order);
   const PowerLimit limit =
       share_of_power(made.source, std::min(hot_threshold * square(sharpest), hottest_share));
-  made.hot = masses_of(made.source.size, hot_texels(made.source, limit));
-  made.expansion = analyse(made.source, limit, made.columns);
+  made.hot = masses_of(made.source.size, hot_texels(made.source, limit), across);
+  made.expansion = analyse(made.source, across, limit, made.columns);
   made.never_negative = never_negative(made.source);
   if (const Plane* weights = latlong.find("W")) {
     made.weights = {latlong.size, {{"Y", *weights}}};

@@ -113,13 +113,14 @@ ControlLobes::Cell<F> ControlLobes::cell_of(const Vec3<F>& d, LaneIndex<F> grid)
   const F across = uv.x * last_column, down = uv.y * last_row;
   const F left = min(floor(across), last_column - F(1)), top = min(floor(down), last_row - F(1));
   const F tx = across - left, ty = down - top;
-  const auto azimuth = [&](F column) { return sine_cosine_of_turns(column / last_column - F(0.5)); };
+  const auto azimuth = [&](F column) {
+    return sine_cosine_of_turns(column / last_column - F(0.5));
+  };
   const auto polar = [&](F row) { return sine_cosine_of_turns(row / (F(2) * last_row)); };
   const auto east = azimuth(left + F(1)), west = azimuth(left);
   const auto north = polar(top), south = polar(top + F(1));
   const auto axis = [&](const SineCosine<F>& phi, const SineCosine<F>& theta) {
-    return turn_.to_world(
-        Vec3<F>{-phi.sine * theta.sine, theta.cosine, phi.cosine * theta.sine});
+    return turn_.to_world(Vec3<F>{-phi.sine * theta.sine, theta.cosine, phi.cosine * theta.sine});
   };
   const LaneIndex<F> stride = to_index<F>(F(2 * node_numbers) * rows);
   const LaneIndex<F> first = index_at(firsts_.data(), grid) + to_index<F>(top) * stride +

@@ -73,6 +73,8 @@ class Environment {
 
   /// Cells of the density, in the image's own orientation.
   Size cells() const { return cells_; }
+  /// Whether values stand at the corners of cells instead of their middles.
+  bool is_node_aligned() const { return offset_.x == 1; }
   double rotate_deg() const { return 360 * rotation_; }
 
  private:

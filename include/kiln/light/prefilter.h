@@ -13,8 +13,8 @@ namespace kiln {
 /// The shape of a filter: an isotropic distribution of microfacet normals.
 struct FilterLobe {
   std::string distribution = "ggx";
-  double alpha = 1;  ///< (0, 1]
-  double shape = 0;  ///< of distributions that have one; 0: its default
+  double alpha = 1;     ///< (0, 1]
+  double shape = 0;     ///< of distributions that have one; 0: its default
   bool masked = false;  ///< GGX with K = straight_lobe(), else K as of Prefilter
 
   bool operator==(const FilterLobe&) const = default;
@@ -25,6 +25,9 @@ struct LobeProbe {
   FilterLobe lobe;
   std::vector<Vec3<double>> directions;  ///< unit
 };
+
+/// What a source is between the texel centres of one row.
+enum class Across { Nothing, Straight };
 
 /// An environment, expanded in spherical harmonics so that it can be filtered with any lobe.
 ///
@@ -51,9 +54,13 @@ class Prefilter {
   /// @param latlong  planes R G B (or one plane, grey), values at texel centres, finite; outlives
   ///                 this. One too coarse for the sharpest lobe is first made finer, bilinearly
   /// @param lobes    those that will be asked for
+  /// @param across   Nothing: texels are point masses; Straight: along a row each is spread over
+  /// its
+  ///                 neighbours as by linear interpolation, exactly
   /// @error Fault::Input when the image is empty or has neither one nor three colours;
   ///        Fault::Usage when a lobe is narrower than least_alpha, or its distribution unknown
-  Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes);
+  Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes,
+            Across across = Across::Nothing);
   ~Prefilter();
   Prefilter(Prefilter&&) noexcept;
 

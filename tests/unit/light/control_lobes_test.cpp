@@ -15,10 +15,9 @@ Vec3<double> some_direction(std::uint32_t i) {
   return {r * std::cos(phi), z, r * std::sin(phi)};
 }
 
-constexpr Size grid{4096, 2048};
+constexpr Size grid{2048, 1024};
 
-/// The sum over the sphere of f(direction, radiance) dw, by the midpoint rule in texels of a tenth
-/// of a degree, cosines evenly.
+/// The sum over the sphere of f(direction, radiance) dw, by the midpoint rule.
 template <class Visit>
 Vec3<double> integrate(const Environment& environment, const Visit& f) {
   const auto sums = sum_rows(grid.height, 3, [&](int y, std::vector<double>& share) {
@@ -53,9 +52,9 @@ TEST(ControlLobes, IntegralsAreThoseOfTheMixtures) {
     const Environment environment(test::sunny_environment({128, 64}, 50), {false, rotate_deg});
     const ControlLobes controls(environment);
     const Vec3<double> tolerance = mean_of(environment) * 1e-4;
-    for (std::uint32_t i = 0; i < 6; ++i) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
       const Vec3<double> d = some_direction(i);
-      for (const double alpha : {0.03, 0.1, 0.37, 1.0}) {
+      for (const double alpha : {0.06, 0.37}) {
         const auto lobes = controls.lobes(d, alpha);
         expect_near(lobes.light, integrate(environment, lobes), tolerance);
       }

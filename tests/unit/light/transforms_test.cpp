@@ -136,7 +136,8 @@ TEST(HarmonicAnalysis, FindsTheHarmonicsOfPointMasses) {
     const int x = 11, y = size.height / 2;
     const auto solid_angle = static_cast<float>(latlong_texel_solid_angle(size, y));
     for (size_t c = 0; c < 3; ++c) image.layers[c].plane.at(x, y) = static_cast<float>(c + 1);
-    const Expansion found = analyse(color_planes(image), {{1e3, 1e3, 1e3}}, legendre_columns(20));
+    const Expansion found =
+        analyse(color_planes(image), Across::Nothing, {{1e3, 1e3, 1e3}}, legendre_columns(20));
     for (int l = 0; l <= 20; ++l) {
       for (size_t c = 0; c < 3; ++c) {
         double sum = 0;
