@@ -169,19 +169,33 @@ bool read_runner_key(const Entry& entry, BakeChoice& bake) {
   return false;
 }
 
-BakeChoice read_bake(const Node& node) {
+const BakeFacts* facts_of_bake(const std::string& bake) {
+  const auto& all = all_bakes();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const BakeFacts& facts) { return facts.name == bake; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+bool takes(const BakeFacts& facts, const std::string& key) {
+  return std::any_of(facts.params.begin(), facts.params.end(),
+                     [&](const ParamFacts& param) { return param.name == key; });
+}
+
+BakeChoice read_bake(const Node& node, const Reading& reading) {
   BakeChoice bake;
   bake.place = node.place;
   bake.bake = kebab(text_at(node, "bake"));
-  std::vector<std::string> own;
-  for (const BakeFacts& facts : all_bakes()) {
-    if (facts.name != bake.bake) continue;
-    for (const ParamFacts& param : facts.params) own.push_back(param.name);
-  }
+  const BakeFacts* facts = facts_of_bake(bake.bake);
   for (const Entry& entry : node.entries) {
-    const bool is_own = std::count(own.begin(), own.end(), snake(entry.key)) > 0;
+    const std::string key = snake(entry.key);
+    const bool is_own = facts && takes(*facts, key);
     if (!is_own && read_runner_key(entry, bake)) continue;
-    bake.settings.push_back({snake(entry.key), one_text(entry.value), entry.value.place});
+    std::string text = one_text(entry.value);
+    if (is_own && key == facts->layout) {
+      attempt(reading.mistakes, entry.value.place,
+              [&] { text = layout_text(text, reading.folder); });
+    }
+    bake.settings.push_back({key, text, entry.value.place});
   }
   return bake;
 }
@@ -231,7 +245,7 @@ Pipeline read_root(const Node& root, const Reading& reading) {
   });
   with(root, "material", [&](const Node& node) { pipeline.material = read_material(node); });
   with(root, "bakes", [&](const Node& node) {
-    for (const Node& item : node.items) pipeline.bakes.push_back(read_bake(item));
+    for (const Node& item : node.items) pipeline.bakes.push_back(read_bake(item, reading));
   });
   return pipeline;
 }
@@ -255,7 +269,10 @@ Node checked_block(const std::vector<std::pair<std::string, std::string>>& keys,
 }  // namespace
 
 BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& keys) {
-  return read_bake(checked_block(keys, "bake"));
+  Mistakes mistakes;
+  BakeChoice bake = read_bake(checked_block(keys, "bake"), {{}, mistakes});
+  mistakes.raise();
+  return bake;
 }
 
 EnvironmentChoice environment_choice(const std::string& name,

@@ -207,10 +207,24 @@ BlockFacts material_file_block() {
 
 }  // namespace
 
+BlockFacts layouts_file_block() {
+  return {"layouts-file",
+          "layouts of packed files",
+          {version_key(), required(shaped("layouts", Shape::Named, "layout", "layouts by name"))}};
+}
+
+BlockFacts layout_block() {
+  return {"layout",
+          "files, and what their channels hold",
+          {text("summary", "what it is for"),
+           required(shaped("files", Shape::Named, "", "by name: base_color, opacity"))}};
+}
+
 const std::vector<BlockFacts>& all_blocks() {
   static const std::vector<BlockFacts> blocks = {
-      pipeline_block(), color_block(),    limits_block(),   environment_block(),  set_block(),
-      map_block(),      material_block(), any_bake_block(), material_file_block()};
+      pipeline_block(),      color_block(),        limits_block(),   environment_block(),
+      set_block(),           map_block(),          material_block(), any_bake_block(),
+      material_file_block(), layouts_file_block(), layout_block()};
   return blocks;
 }
 

@@ -42,6 +42,7 @@ struct BakeFacts {
   std::vector<ParamFacts> params;
   Product product = Product::Numbers;
   bool own_lights = false;  ///< its settings may hold lights that do without an environment
+  std::string layout = {};  ///< the parameter that is a layout: of a preset or a file, its words
 };
 
 /// Maps of a set that are read band by band.

@@ -127,6 +127,13 @@ EnvironmentChoice environment_choice(const std::string& name,
                                      const std::vector<std::pair<std::string, std::string>>& keys);
 
 /// Whether the name is that of a document of materials: .gltf, .glb or .mtlx.
+/// A layout of packed files in the words that parse_layout reads: as it is where it is in such
+/// words, else that of a preset, or of a file ("engines.yaml", "engines.yaml#mobile").
+/// @param folder  that the file is relative to
+/// @error Fault::Usage for unknown names, and for every mistake in the file, with its place;
+///        Fault::Input when the file cannot be read
+std::string layout_text(const std::string& text, const std::filesystem::path& folder);
+
 bool is_material_document(const std::filesystem::path& path);
 
 /// Which OpenColorIO config counts: the one asked for, else that of the file, else $OCIO, else the
