@@ -119,6 +119,10 @@ SetChoice read_set(const Node& node, const Reading& reading) {
   with(node, "glob", [&](const Node& at) { set.glob = joined(reading.folder, at.text).string(); });
   with(node, "path", [&](const Node& at) { set.path = joined(reading.folder, at.text); });
   set.material = text_at(node, "material");
+  with(node, "packed", [&](const Node& at) {
+    attempt(reading.mistakes, at.place,
+            [&] { set.packed = layout_text(one_text(at), reading.folder); });
+  });
   with(node, "maps", [&](const Node& maps) { set.maps = read_maps(maps, reading); });
   with(node, "naming", [&](const Node& names) { set.naming = scalars(names); });
   read_reading(node, set);
@@ -127,6 +131,9 @@ SetChoice read_set(const Node& node, const Reading& reading) {
   if (sources != 1) reading.mistakes.add(node.place, "a set needs one of: glob, path, maps");
   if (!set.material.empty() && !is_material_document(set.path)) {
     reading.mistakes.add(node.place, "a `material` is one of a .gltf, .glb or .mtlx file");
+  }
+  if (!set.packed.empty() && set.path.empty()) {
+    reading.mistakes.add(node.place, "`packed` is the layout of an image that `path` names");
   }
   if (!set.glob.empty() && !set.name.empty()) {
     reading.mistakes.add(node.place, "a glob makes many sets and cannot have one name");

@@ -146,7 +146,9 @@ BlockFacts set_block() {
       "set",
       "one texture set, or one per folder that a pattern matches",
       {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
-       text("path", "one folder, a set; or a glTF or MaterialX file, a set a material"),
+       text("path",
+            "one folder, a set; or a glTF or MaterialX file, a set a material; or a packed image"),
+       listed(text("packed", "layout of that image, as bake pack takes one")),
        text("material", "the one material of that file that is wanted"),
        text("name", "name of the set"),
        shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
@@ -205,8 +207,6 @@ BlockFacts material_file_block() {
   return with_reading_keys(std::move(block));
 }
 
-}  // namespace
-
 BlockFacts layouts_file_block() {
   return {"layouts-file",
           "layouts of packed files",
@@ -219,6 +219,8 @@ BlockFacts layout_block() {
           {text("summary", "what it is for"),
            required(shaped("files", Shape::Named, "", "by name: base_color, opacity"))}};
 }
+
+}  // namespace
 
 const std::vector<BlockFacts>& all_blocks() {
   static const std::vector<BlockFacts> blocks = {

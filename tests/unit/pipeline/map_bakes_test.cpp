@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 
 #include "kiln/math/hash.h"
+#include "kiln/bake/pack_layout.h"
 #include "kiln/pipeline/run.h"
 #include "support/workshop.h"
 
@@ -158,6 +160,77 @@ TEST(Packing, PassesNumbersThroughThatAreTaggedAsColour) {
 
 TEST(Packing, RefusesOneNameForSeveralFiles) {
   const Workshop shop;
+// The file that a slot was painted in, or its opposite's.
+std::string painted(const std::string& slot) {
+  const std::map<std::string, std::string> names{
+      {"base_color", "BaseColor"}, {"diffuse", "BaseColor"},
+      {"roughness", "Roughness"},  {"gloss", "Roughness"},
+      {"metallic", "Metallic"},    {"ambient_occlusion", "AmbientOcclusion"},
+      {"normal", "NormalGL"},      {"height", "Height"}};
+  const auto found = names.find(slot);
+  return found == names.end() ? "" : "rock/x_" + found->second + ".png";
+}
+
+int code(float value) { return static_cast<int>(std::lround(255 * value)); }
+
+TEST(Packing, ComesBackBitForBitFromALoneFileOfEveryPreset) {
+  const Workshop shop;
+  paint_set(shop);
+  for (const std::string& preset : pack_preset_names()) {
+    const Report packed = run(shop, "bake: pack, preset: " + preset + ", out: " + preset);
+    expect_baked(packed);
+    for (const std::string& file : packed.tasks[0].outputs) {
+      const Report apart =
+          run(shop, "bake: unpack, out: apart/" + preset + "_" + fs::path(file).stem().string(),
+              "out/" + file + ", packed: " + preset);
+      expect_baked(apart);
+      for (const std::string& output : apart.tasks[0].outputs) {
+        const std::string slot = fs::path(output).stem().string(), source = painted(slot);
+        if (source.empty()) continue;
+        const Layers back = read_image(shop / ("out/" + output)).image;
+        const Layers stored = read_image(shop / source).image;
+        ASSERT_EQ(back.layers.size(), stored.layers.size()) << output;
+        for (size_t c = 0; c < back.layers.size(); ++c) {
+          const bool turned = slot == "gloss" || (slot == "normal" && preset == "unreal" && c == 1);
+          for (int x = 0; x < set_size.width; ++x) {
+            const int was = code(stored.layers[c].plane.at(x, 71));
+            ASSERT_EQ(code(back.layers[c].plane.at(x, 71)), turned ? 255 - was : was) << output;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Packing, OfALoneFileTakesTheLayoutOfItsNameOrTheOnlyOne) {
+  const Workshop shop;
+  paint_set(shop);
+  expect_baked(run(shop, "bake: pack, layout: \"m = metallic, 1 - height, 0.5\", out: m"));
+  const Report named = run(shop, "bake: unpack, out: a",
+                           "out/m/m.png, packed: \"other = roughness; m = metallic, 1 - height\"");
+  expect_baked(named);
+  EXPECT_THAT(named.tasks[0].outputs, UnorderedElementsAre("a/metallic.png", "a/height.png"));
+  expect_equal(plane_of(shop / "out/a/height.png", "Y"), plane_of(shop / "rock/x_Height.png", "Y"));
+  const Report only = run(shop, "bake: unpack, out: b", "out/m/m.png, packed: \"x = opacity\"");
+  expect_baked(only);
+  EXPECT_THAT(only.tasks[0].outputs, UnorderedElementsAre("b/opacity.png"));
+}
+
+TEST(Packing, OfALoneFileSaysWhatItDoesNotUnderstand) {
+  const Workshop shop;
+  paint_set(shop);
+  const auto refusal = [&](const std::string& packed) {
+    return test::message_of([&] { run(shop, "bake: unpack, out: a", packed); });
+  };
+  const std::string image = "rock/x_Roughness.png, packed: ";
+  EXPECT_THAT(refusal(image + "unrel"), HasSubstr("did you mean 'unreal'"));
+  EXPECT_THAT(refusal(image + "unreal"), HasSubstr("ends in no file of the layout: BC, ORM, N, E"));
+  EXPECT_THAT(refusal(image + "\"a = base_color.b\""), HasSubstr("expected 'rgb'"));
+  EXPECT_THAT(refusal(image + "\"a = metallic, metallic\""), HasSubstr("metallic twice"));
+  EXPECT_THAT(refusal(image + "\"a = 0.5\""), HasSubstr("holds no map"));
+  EXPECT_THAT(refusal("rock, packed: unreal"), HasSubstr("is no image"));
+}
+
   paint_set(shop);
   EXPECT_THAT(fault_of(run(shop, "bake: pack, out: one.png")), HasSubstr("{suffix}"));
 }
