@@ -112,11 +112,21 @@ struct Artifact {
   std::string color_from = {}, color_to = {};
 };
 
+/// What the files of a sheet are when they are read back as one set.
+struct SheetMaterial {
+  Workflow workflow = Workflow::MetalRough;
+  std::vector<Slot> slots;  ///< that the files fill, in their order
+  std::vector<Slot>
+      replaced;  ///< of the set, which the files stand for: its other maps stay beside
+};
+
 /// Files of one size that are made together, a band of rows at a time, from the maps of a set.
 struct MapSheet {
   std::vector<Artifact> files;  ///< their images have no texels: names of layers
   /// The same rows of every file. May be called from many threads at once.
   std::function<std::vector<Layers>(const MapRows&)> make;
+  /// Where it is there, `material.yaml` beside the files says how they are read back.
+  std::optional<SheetMaterial> material = {};
 };
 
 struct Baked {
