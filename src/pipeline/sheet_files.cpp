@@ -94,8 +94,7 @@ struct Band {
 Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed) {
   const Size size = reader.bands().size;
-  const BandPlan bands = require_bands(
-      row_cost(size, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
+  const BandPlan bands = require_bands(cost_of_rows(plan, task), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet, size);
   const auto make = [&](Band& band) {
     band.made = sheet.make(band.read);
@@ -125,8 +124,8 @@ Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, S
     written.outputs.push_back(file.name);
     const std::string note = clamping_note(file.name, file.type, facts);
     if (!note.empty()) written.notes.push_back(note);
-  if (sheet.material) write_material(plan, task, sheet, reader.bands(), written);
   }
+  if (sheet.material) write_material(plan, task, sheet, reader.bands(), written);
   return written;
 }
 

@@ -49,9 +49,9 @@ struct BakeFacts {
 struct MapNeeds {
   bool resolved = false;          ///< as one BRDF per texel
   std::vector<Slot> stored = {};  ///< as stored, where they are given
-  bool all = false;               ///< as stored, all that are given
+  double held = 0;                ///< planes of the set's size that are held beside the bands
 
-  bool any() const { return resolved || all || !stored.empty(); }
+  bool any() const { return resolved || !stored.empty(); }
 };
 
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
