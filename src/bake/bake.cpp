@@ -10,6 +10,7 @@ template <class Bake>
 BakeFacts describe() {
   BakeFacts facts{Bake::name, Bake::summary, Bake::scope, facts_of(Bake::params()), Bake::product};
   if constexpr (requires { Bake::own_lights; }) facts.own_lights = Bake::own_lights;
+  if constexpr (requires { Bake::layout; }) facts.layout = Bake::layout;
   return facts;
 }
 

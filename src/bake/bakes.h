@@ -119,6 +119,7 @@ struct PackBake {
   static constexpr const char* summary = "maps in the channels of files, as an engine wants them";
   static constexpr Scope scope = Scope::PerSet;
   static constexpr Product product = Product::Maps;
+  static constexpr const char* layout = "layout";
   struct Settings {
     std::string preset = "gltf";
     std::string layout;

@@ -11,26 +11,35 @@ namespace {
 
 using Settings = ConvertBake::Settings;
 
-/// A map of the target workflow.
-struct Target {
-  const char* name;  ///< the slot's, as in a material file
-  bool is_color;
-};
+bool is_lossless_metal(const Settings& settings) {
+  return settings.to == Workflow::MetalRough && settings.method == ConvertBake::Method::Lossless;
+}
 
-std::vector<Target> targets_of(const Settings& settings) {
+// Maps of the target workflow.
+std::vector<Slot> slots_made(const Settings& settings) {
   switch (settings.to) {
     case Workflow::SpecGloss:
-      return {{"diffuse", true}, {"specular_color", true}, {"gloss", false}};
+      return {Slot::Diffuse, Slot::SpecularColor, Slot::Gloss};
     case Workflow::AlbedoSpecularRoughness:
-      return {{"diffuse", true}, {"specular_color", true}, {"roughness", false}};
+      return {Slot::Diffuse, Slot::SpecularColor, Slot::Roughness};
     case Workflow::MetalRough:
       break;
   }
-  if (settings.method == ConvertBake::Method::Lossless) {
-    return {
-        {"base_color", true}, {"metallic", false}, {"specular_color", true}, {"roughness", false}};
+  if (is_lossless_metal(settings)) {
+    return {Slot::BaseColor, Slot::Metallic, Slot::SpecularColor, Slot::Roughness};
   }
-  return {{"base_color", true}, {"metallic", false}, {"roughness", false}};
+  return {Slot::BaseColor, Slot::Metallic, Slot::Roughness};
+}
+
+// With metallic 0 base colour and F0 are what a workflow without metals reads.
+SheetMaterial material_of(const Settings& settings, std::vector<Slot> slots) {
+  const Workflow workflow =
+      is_lossless_metal(settings) ? Workflow::AlbedoSpecularRoughness : settings.to;
+  return {workflow,
+          std::move(slots),
+          {Slot::BaseColor, Slot::Diffuse, Slot::Roughness, Slot::Gloss, Slot::Metallic,
+           Slot::SpecularColor, Slot::SpecularLevel, Slot::SpecularTint, Slot::SpecularWeight,
+           Slot::Anisotropy}};
 }
 
 Plane gloss_of(Plane roughness) {
@@ -77,11 +86,21 @@ std::vector<Layers> converted(const Settings& settings, const Svbrdf& rows) {
     case Workflow::MetalRough:
       break;
   }
-  if (settings.method == ConvertBake::Method::Lossless) {
+  if (is_lossless_metal(settings)) {
     return {rgb(rows.diffuse_color), grey(Plane(rows.size)), rgb(rows.f0), grey(rows.roughness)};
   }
   const Metallic metallic = metallic_of(rows, settings.method);
   return {rgb(metallic.base), grey(metallic.metallic), grey(rows.roughness)};
+}
+
+Artifact file_of(Slot slot, const std::string& extension, const MapBands& maps) {
+  const std::string name(slot_name(slot));
+  std::vector<const GivenMap*> given;
+  for (const GivenMap& map : maps.given) given.push_back(&map);
+  Artifact file = slot_facts(slot).content == Content::Color ? color_file(name, extension, maps)
+                                                             : map_file(name, extension, {"Y"});
+  file.preferred_type = widest_type(given);
+  return file;
 }
 
 const std::vector<std::string> method_words = {"solve", "lossless", "khronos"};
@@ -102,19 +121,20 @@ Needs ConvertBake::needs(const Settings&) { return {.maps = {.resolved = true}};
 Baked ConvertBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const MapBands& maps = *ingredients.maps;
   const std::string extension = map_extension(settings.format, maps);
-  std::vector<const GivenMap*> given;
-  for (const GivenMap& map : maps.given) given.push_back(&map);
+  std::vector<Slot> slots = slots_made(settings);
+  const bool is_anisotropic = maps.find(Slot::Anisotropy) != nullptr;
+  if (is_anisotropic) slots.push_back(Slot::Anisotropy);
   Baked baked;
   MapSheet& sheet = baked.sheet.emplace();
-  for (const Target& target : targets_of(settings)) {
-    sheet.files.push_back(target.is_color ? color_file(target.name, extension, maps)
-                                          : map_file(target.name, extension, {"Y"}));
-    sheet.files.back().preferred_type = widest_type(given);
-  }
-  sheet.make = [&maps, settings](const MapRows& rows) {
-    return converted(settings, maps.svbrdf(rows));
+  for (const Slot slot : slots) sheet.files.push_back(file_of(slot, extension, maps));
+  sheet.material = material_of(settings, std::move(slots));
+  sheet.make = [&maps, settings, is_anisotropic](const MapRows& rows) {
+    const Svbrdf svbrdf = maps.svbrdf(rows);
+    std::vector<Layers> made = converted(settings, svbrdf);
+    if (is_anisotropic) made.push_back(grey(svbrdf.anisotropy));
+    return made;
   };
-  if (settings.to == Workflow::MetalRough && settings.method == Method::Lossless) {
+  if (is_lossless_metal(settings)) {
     baked.notes.emplace_back(
         "lossless: metallic is 0 and specular_color is F0, as KHR_materials_specular with ior 0 "
         "has it; read back as albedo-specular-roughness");

@@ -37,6 +37,20 @@ std::string widest_type(const std::vector<const GivenMap*>& maps) {
   return types[widest];
 }
 
+std::vector<std::string> channel_names(size_t count) {
+  if (count == 1) return {"Y"};
+  std::vector<std::string> names{"R", "G", "B", "A"};
+  names.resize(count);
+  return names;
+}
+
+std::vector<Slot> every_slot() {
+  std::vector<Slot> slots;
+  slots.reserve(slot_list.size());
+  for (const SlotFacts& facts : slot_list) slots.push_back(facts.slot);
+  return slots;
+}
+
 Artifact map_file(const std::string& name, const std::string& extension,
                   const std::vector<std::string>& channels) {
   Artifact file;

@@ -19,6 +19,12 @@ std::string map_extension(const std::string& format, const MapBands& maps);
 /// The narrowest type that holds what these maps store: "uint8" up to "float".
 std::string widest_type(const std::vector<const GivenMap*>& maps);
 
+/// Of files with so many: "Y", or as many of R, G, B and A.
+std::vector<std::string> channel_names(size_t count);
+
+/// Every slot there is, for MapNeeds.
+std::vector<Slot> every_slot();
+
 /// A file of a sheet with channels of these names, without texels.
 Artifact map_file(const std::string& name, const std::string& extension,
                   const std::vector<std::string>& channels);

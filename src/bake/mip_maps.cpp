@@ -8,6 +8,7 @@
 #include "kiln/material/normals.h"
 #include "kiln/math/sums.h"
 #include "kiln/math/wide.h"
+#include "map_files.h"
 
 namespace kiln {
 namespace {
@@ -28,12 +29,6 @@ Layers named(const Layers& image, const std::vector<std::string>& names) {
   return result;
 }
 
-std::vector<std::string> usual_names(int channels) {
-  if (channels == 1) return {"Y"};
-  if (channels == 2) return {"R", "G"};
-  return {"R", "G", "B"};
-}
-
 double sum_of_layer(int width, const float* row) {
   return sum_of({row, static_cast<size_t>(width)});
 }
@@ -46,7 +41,7 @@ const Plane& plane_of(const SlotMaps& maps, Slot slot, size_t channel) {
 MipFile file_of(const GivenMap& map) {
   MipFile file;
   file.name = std::string(slot_name(map.slot));
-  file.names = usual_names(map.channels);
+  file.names = channel_names(static_cast<size_t>(map.channels));
   file.preferred_type = map.stored_type;
   file.attributes = {{"kiln:quantity", file.name}, {"kiln:filter", "box"}};
   return file;
@@ -203,13 +198,13 @@ MipMap with_opacity(MipMap mips, Slot slot, const MipChoice& choice) {
 MipMap color_mips(const GivenMap& map, const MapBands& bands, const MipChoice& choice) {
   MipMap mips;
   mips.file = file_of(map);
-  mips.file.names = usual_names(3);
+  mips.file.names = channel_names(3);
   mips.file.color_from = bands.working;
   mips.file.color_stored = map.color_space;
   mips.channels = choice.weighted ? 4 : 3;
   mips.first_as_stored = true;
   mips.first = [slot = map.slot](const MipBand& band) {
-    return named(band.stored.at(slot).image, usual_names(3));
+    return named(band.stored.at(slot).image, channel_names(3));
   };
   mips.energy_of_numbers = true;
   mips.energy_name = choice.weighted ? "linear colour times opacity" : "linear colour";

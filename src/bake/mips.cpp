@@ -8,6 +8,7 @@
 #include "bakes.h"
 #include "kiln/bake/mip_sheet.h"
 #include "kiln/image/mip_levels.h"
+#include "map_files.h"
 #include "mip_filter.h"
 #include "mip_maps.h"
 #include "word_list.h"
@@ -40,6 +41,7 @@ bool is_lobe(Slot slot) { return slot == Slot::Roughness || slot == Slot::Gloss;
 
 // Each slot with those that it is filtered by.
 std::vector<Slot> slots_read(const Settings& settings, const std::vector<Slot>& named) {
+  if (named.empty()) return every_slot();
   std::vector<Slot> read = named;
   for (const Slot slot : named) {
     if (is_color(slot)) read.push_back(Slot::Opacity);
@@ -249,8 +251,8 @@ Needs MipsBake::needs(const Settings& settings) {
                             normal_filter_names[static_cast<size_t>(settings.method)]));
   }
   Needs needs;
-  needs.maps.all = named.empty();
   needs.maps.stored = slots_read(settings, named);
+  if (settings.alpha_test > 0) needs.maps.held = 1.25;  // opacity, and the level below
   return needs;
 }
 

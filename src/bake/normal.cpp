@@ -78,7 +78,8 @@ Params<Settings> NormalBake::params() {
 }
 
 Needs NormalBake::needs(const Settings& settings) {
-  return {.maps = {.stored = {settings.from == From::Height ? Slot::Height : Slot::Normal}}};
+  if (settings.from == From::Normal) return {.maps = {.stored = {Slot::Normal}}};
+  return {.maps = {.stored = {Slot::Height}, .held = 1}};
 }
 
 Baked NormalBake::bake(const Settings& settings, const Ingredients& ingredients) {

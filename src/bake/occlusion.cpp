@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -41,7 +42,9 @@ Needs OcclusionBake::needs(const Settings& settings) {
   if (settings.directions % 2 != 0) {
     throw Error(Fault::Usage, "directions: found an odd number, expected an even one");
   }
-  return {.maps = {.stored = {Slot::Height}}};
+  // The map, and the same with borders that it repeats.
+  const double border = std::min(settings.radius / settings.tile_size, 1.0);
+  return {.maps = {.stored = {Slot::Height}, .held = 2 + 2 * border}};
 }
 
 Baked OcclusionBake::bake(const Settings& settings, const Ingredients& ingredients) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 
 #include "bakes.h"
+#include "kiln/bake/pack_layout.h"
 #include "map_files.h"
-#include "pack_presets.h"
 #include "stored_rows.h"
 
 namespace kiln {
@@ -16,11 +17,6 @@ using Settings = PackBake::Settings;
 std::vector<PackedFile> files_of(const Settings& settings) {
   return parse_layout(settings.layout.empty() ? find_pack_preset(settings.preset).layout
                                               : settings.layout);
-}
-
-NormalConvention convention_of(const Settings& settings) {
-  return settings.layout.empty() ? find_pack_preset(settings.preset).normal
-                                 : NormalConvention::OpenGl;
 }
 
 /// A packed file with the maps that its channels come from, null where a constant stands in.
@@ -63,12 +59,6 @@ std::vector<Packed> packed_by(const Settings& settings, const MapBands& maps, Ba
   return packed;
 }
 
-std::vector<std::string> channel_names(size_t count) {
-  if (count == 1) return {"Y"};
-  const std::vector<std::string> names{"R", "G", "B", "A"};
-  return {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count)};
-}
-
 Artifact artifact_of(const Packed& packed, const std::string& extension) {
   Artifact file =
       map_file(packed.file.suffix, extension, channel_names(packed.file.channels.size()));
@@ -77,11 +67,7 @@ Artifact artifact_of(const Packed& packed, const std::string& extension) {
     if (map) given.push_back(map);
   }
   file.preferred_type = widest_type(given);
-  std::string layout;
-  for (const PackSource& source : packed.file.channels) {
-    layout += (layout.empty() ? "" : ", ") + source.text;
-  }
-  file.attributes.emplace_back("kiln:channels", layout);
+  file.attributes.emplace_back("kiln:channels", sources_text(packed.file));
   if (const GivenMap* color = packed.color()) {
     file.color_from = color->color_space;
     file.color_to = extension == ".png" ? "srgb_rec709_scene" : color->color_space;
@@ -89,10 +75,9 @@ Artifact artifact_of(const Packed& packed, const std::string& extension) {
   return file;
 }
 
-Layers packed_rows(const Packed& packed, const SlotMaps& rows, const MapBands& maps, Size size,
-                   NormalConvention convention) {
+Layers packed_rows(const Packed& packed, const SlotMaps& rows, const MapBands& maps, Size size) {
   std::vector<Plane> planes;
-  std::optional<Layers> normals;
+  std::map<NormalConvention, Layers> normals;
   for (size_t c = 0; c < packed.maps.size(); ++c) {
     const PackSource& source = packed.file.channels[c];
     if (source.is_constant) {
@@ -101,8 +86,11 @@ Layers packed_rows(const Packed& packed, const SlotMaps& rows, const MapBands& m
     }
     const bool is_normal = source.slot == Slot::Normal && packed.maps[c] && maps.normal;
     if (is_normal) {
-      if (!normals) normals = stored_normals(rows.at(Slot::Normal), *maps.normal, convention);
-      planes.push_back(normals->layers[static_cast<size_t>(source.channel)].plane);
+      Layers& normal = normals[source.convention];
+      if (normal.layers.empty()) {
+        normal = stored_normals(rows.at(Slot::Normal), *maps.normal, source.convention);
+      }
+      planes.push_back(normal.layers[static_cast<size_t>(source.channel)].plane);
     } else {
       planes.push_back(stored_channel(rows, packed.maps[c], source.slot, source.channel, size));
     }
@@ -117,7 +105,8 @@ Params<Settings> PackBake::params() {
   return {
       choice_param("preset", &Settings::preset, pack_preset_names(), "layout of an engine"),
       text_param("layout", &Settings::layout,
-                 "files and channels by hand: \"orm = ambient_occlusion, roughness, metallic\""),
+                 "instead of it: \"orm = ambient_occlusion, roughness, metallic\", or a file of "
+                 "layouts and #NAME"),
       choice_param("format", &Settings::format, map_formats(), "of the files; by the maps' own")};
 }
 
@@ -125,11 +114,7 @@ Needs PackBake::needs(const Settings& settings) {
   std::set<Slot> slots;
   for (const PackedFile& file : files_of(settings)) {
     for (const PackSource& source : file.channels) {
-      if (source.is_constant) continue;
-      slots.insert(source.slot);
-      if (source.slot == Slot::Roughness) slots.insert(Slot::Gloss);
-      if (source.slot == Slot::BaseColor) slots.insert(Slot::Diffuse);
-      if (source.slot == Slot::Diffuse) slots.insert(Slot::BaseColor);
+      if (!source.is_constant) slots.insert({source.slot, stand_in(source.slot)});
     }
   }
   return {.maps = {.stored = {slots.begin(), slots.end()}}};
@@ -143,14 +128,13 @@ Baked PackBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const std::string extension = map_extension(settings.format, maps);
   MapSheet& sheet = baked.sheet.emplace();
   for (const Packed& one : packed) sheet.files.push_back(artifact_of(one, extension));
-  const NormalConvention convention = convention_of(settings);
-  sheet.make = [&maps, packed, convention](const MapRows& rows) {
+  sheet.make = [&maps, packed](const MapRows& rows) {
     const SlotMaps stored = maps.stored(rows);
     const Size size{maps.size.width, rows.rows.count};
     std::vector<Layers> made;
     made.reserve(packed.size());
     for (const Packed& one : packed) {
-      made.push_back(packed_rows(one, stored, maps, size, convention));
+      made.push_back(packed_rows(one, stored, maps, size));
     }
     return made;
   };

@@ -6,7 +6,10 @@
 namespace kiln {
 namespace {
 
-// Pairs of slots that hold the same, the second of the first pair inverted.
+bool is_width(Slot slot) { return slot == Slot::Roughness || slot == Slot::Gloss; }
+
+}  // namespace
+
 Slot stand_in(Slot slot) {
   switch (slot) {
     case Slot::Roughness:
@@ -21,10 +24,6 @@ Slot stand_in(Slot slot) {
       return slot;
   }
 }
-
-bool is_width(Slot slot) { return slot == Slot::Roughness || slot == Slot::Gloss; }
-
-}  // namespace
 
 const GivenMap* standing_for(const MapBands& maps, Slot slot) {
   const GivenMap* map = maps.find(slot);

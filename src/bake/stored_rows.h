@@ -8,8 +8,11 @@
 
 namespace kiln {
 
-/// The map that stands for a slot: of roughness also gloss, of base colour diffuse, and the other
-/// way round; nothing where neither is given.
+/// The slot that holds the same: gloss, inverted, of roughness, diffuse of base colour, and the
+/// other way round; of others the slot itself.
+Slot stand_in(Slot slot);
+
+/// The map of a slot, or of its stand-in; nothing where neither is given.
 const GivenMap* standing_for(const MapBands& maps, Slot slot);
 
 /// Rows of one channel of a slot as stored, from the map that stands for it or its constant.

@@ -19,7 +19,8 @@ std::vector<std::string> slot_words() {
 std::vector<Slot> slots_of(const Settings& settings) {
   std::vector<Slot> slots;
   for (const std::string& word : word_list("maps", settings.maps, slot_words())) {
-    if (word != "all") slots.push_back(parse_slot(word));
+    if (word == "all") return every_slot();
+    slots.push_back(parse_slot(word));
   }
   return slots;
 }
@@ -30,11 +31,8 @@ std::string extension_of(const Settings& settings, const GivenMap& map) {
 }
 
 Artifact file_of(const Settings& settings, const GivenMap& map) {
-  const std::vector<std::string> names = map.channels == 1 ? std::vector<std::string>{"Y"}
-                                         : map.channels == 2
-                                             ? std::vector<std::string>{"R", "G"}
-                                             : std::vector<std::string>{"R", "G", "B"};
-  Artifact file = map_file(std::string(slot_name(map.slot)), extension_of(settings, map), names);
+  Artifact file = map_file(std::string(slot_name(map.slot)), extension_of(settings, map),
+                           channel_names(static_cast<size_t>(map.channels)));
   file.preferred_type = map.stored_type;
   file.color_from = file.color_to = map.color_space;
   return file;
@@ -49,8 +47,7 @@ Params<Settings> UnpackBake::params() {
 }
 
 Needs UnpackBake::needs(const Settings& settings) {
-  const std::vector<Slot> slots = slots_of(settings);
-  return {.maps = {.stored = slots, .all = slots.empty()}};
+  return {.maps = {.stored = slots_of(settings)}};
 }
 
 Baked UnpackBake::bake(const Settings& settings, const Ingredients& ingredients) {

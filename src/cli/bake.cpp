@@ -22,7 +22,8 @@ struct BakeArguments {
 
 int run(const BakeArguments& arguments, const Globals& globals) {
   if (arguments.material.path.empty()) {
-    throw Error(Fault::Usage, "expected a MATERIAL: a folder of maps or a material file");
+    throw Error(Fault::Usage,
+                "expected a MATERIAL: a folder of maps, a material file or a packed image");
   }
   Pipeline pipeline;
   std::vector<std::pair<std::string, std::string>> keys;
@@ -44,7 +45,8 @@ std::string output_text(Product product) {
 Action declare(CLI::App& app, const BakeFacts& facts) {
   const auto arguments = std::make_shared<BakeArguments>();
   const Needs needs = make_recipe(facts.name)->needs();
-  app.add_option("MATERIAL", arguments->material.path, "folder of maps, or a material file")
+  app.add_option("MATERIAL", arguments->material.path,
+                 "folder of maps, a material file, or a packed image")
       ->type_name("");
   app.add_option("-o,--output", arguments->output, output_text(facts.product))->type_name("PATH");
   arguments->options = std::make_unique<BakeOptions>(app, facts.name, std::vector<std::string>{});

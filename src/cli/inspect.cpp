@@ -204,7 +204,7 @@ int run(const InspectArguments& arguments, const Globals& globals) {
   if (arguments.paths.empty()) throw Error(Fault::Usage, "expected a FILE or a MATERIAL");
   Json json = Json::array();
   for (const std::string& path : arguments.paths) {
-    if (!is_material(path)) {
+    if (!is_material(path) && arguments.material.packed.empty()) {
       const Inspected inspected = inspect_file(path);
       if (!globals.json) print_text(inspected);
       json.push_back(to_json(inspected));

@@ -10,6 +10,7 @@
 #include "kiln/bake/bake.h"
 #include "kiln/bake/environment.h"
 #include "kiln/bake/lut.h"
+#include "kiln/bake/pack_layout.h"
 #include "kiln/brdf/models.h"
 #include "kiln/color/color.h"
 #include "kiln/core/error.h"
@@ -237,6 +238,8 @@ const std::vector<Kind>& kinds() {
        [](const Globals&) { return items_of(list_environment_presets()); }},
       {"environment-formats", "files that kiln env writes",
        [](const Globals&) { return items_of(list_environment_formats()); }},
+      {"layouts", "layouts of engines for kiln bake pack",
+       [](const Globals&) { return items_of(list_pack_presets()); }},
       {"surface", "models and numbers of a material", list_surface, [](Item&) {}},
       {"bakes", "what a pipeline file can make", list_bakes},
       {"namings", "schemes that tell a map's slot from its file name", list_namings},
@@ -354,10 +357,10 @@ int run(const std::string& word, const Globals& globals) {
 
 Action declare(CLI::App& app) {
   const auto word = std::make_shared<std::string>();
-  app.add_option("WORD", *word,
-                 "models, lobes, tables, axes, channels, presets, surface, bakes, namings, maps, "
-                 "colour-spaces, schema, or "
-                 "the name of one")
+  app.add_option(
+         "WORD", *word,
+         "models, lobes, tables, axes, channels, presets, layouts, surface, bakes, namings, maps, "
+         "colour-spaces, schema, or the name of one")
       ->type_name("");
   return [word](const Globals& globals) { return run(*word, globals); };
 }

@@ -40,6 +40,11 @@ void MaterialOptions::declare(CLI::App& app) {
       ->type_name("WORD,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  app.add_option(
+         "--packed", packed,
+         "of a lone image its layout: \"orm = ambient_occlusion, roughness, metallic\", one "
+         "of kiln list layouts, or FILE.yaml#NAME")
+      ->type_name("LAYOUT");
   reading.reserve(workflow_params().size());
   for (const Param<WorkflowSettings>& param : workflow_params()) {
     reading.emplace_back(param.facts.name, "");
@@ -70,6 +75,7 @@ void MaterialOptions::add_to(Pipeline& pipeline) const {
   } else {
     set.path = path;
     set.naming = naming;
+    set.packed = layout_text(packed, {});
   }
   set.chosen = name;
   for (const std::string& scheme : naming) find_naming_scheme(scheme);

@@ -8,10 +8,10 @@
 
 namespace kiln {
 
-/// A MATERIAL on the command line: a folder of maps, a material file, or a glTF or MaterialX
-/// document, and how to read it.
+/// A MATERIAL on the command line: a folder of maps, a material file, a glTF or MaterialX document,
+/// or a packed image, and how to read it.
 struct MaterialOptions {
-  std::string path, name;
+  std::string path, name, packed;
   std::vector<std::string> naming;
   std::vector<std::pair<std::string, std::string>> reading;  ///< keys of the set's block
 

@@ -25,7 +25,8 @@ struct PreviewArguments {
 
 int run(const PreviewArguments& arguments, const Globals& globals) {
   if (arguments.material.path.empty()) {
-    throw Error(Fault::Usage, "expected a MATERIAL: a folder of maps or a material file");
+    throw Error(Fault::Usage,
+                "expected a MATERIAL: a folder of maps, a material file or a packed image");
   }
   if (arguments.environment.path.empty() && arguments.lights.empty()) {
     throw Error(Fault::Usage,
@@ -48,7 +49,8 @@ int run(const PreviewArguments& arguments, const Globals& globals) {
 
 Action declare(CLI::App& app) {
   const auto arguments = std::make_shared<PreviewArguments>();
-  app.add_option("MATERIAL", arguments->material.path, "folder of maps, or a material file")
+  app.add_option("MATERIAL", arguments->material.path,
+                 "folder of maps, a material file, or a packed image")
       ->type_name("");
   app.add_option("--env", arguments->environment.path,
                  "image to light it with, or the name of six with <FACE>, or their folder")

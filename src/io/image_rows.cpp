@@ -65,6 +65,8 @@ std::unique_ptr<io::RowSource> open_rows(const fs::path& path,
 
 }  // namespace
 
+bool is_held_whole(const FileFacts& facts) { return is_held(facts.format); }
+
 ImageRows::ImageRows(const fs::path& path, const std::vector<std::string>& channels,
                      const ReadLimits& limits)
     : path_(path), source_(open_rows(path, channels, limits)) {}

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kiln/core/error.h"
 
@@ -98,6 +99,21 @@ bool is_grey_relief(const Layers& stored) {
   return found.max - found.min > visible;
 }
 
+// Those with a direction whose length is more than rounding from 1. NaN and Inf compare as neither.
+int count_not_unit(const std::array<float*, 3>& n, int width) {
+  constexpr float rounding = 1e-4f;
+  constexpr float low = 1 - unit_tolerance - rounding, high = 1 + unit_tolerance + rounding;
+  constexpr float largest = std::numeric_limits<float>::max();
+  int count = 0;
+  for (int i = 0; i < width; ++i) {
+    const float squared = n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i];
+    const bool is_short = squared >= least_length * least_length && squared < low * low;
+    const bool is_long = squared > high * high && squared <= largest;
+    count += is_short || is_long;
+  }
+  return count;
+}
+
 // One row of components to unit vectors above the surface.
 void make_unit_row(std::array<float*, 3> n, int width, DecodedNormals& counts) {
   int degenerate = 0, below = 0, unreadable = 0;
@@ -165,6 +181,7 @@ DecodedNormals decode_normals(const Layers& stored, const NormalDecoding& decodi
       const float* stored_z = stored.layers[2].plane.row(row);
       for (int i = 0; i < stored.size.width; ++i) n[2][i] = z(stored_z[i]);
     }
+    decoded.not_unit += count_not_unit(n, stored.size.width);
     if (decoding.strength != 1.0f) strengthen_row(n, stored.size.width, decoding.strength);
     make_unit_row(n, stored.size.width, decoded);
   }

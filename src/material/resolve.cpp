@@ -52,12 +52,25 @@ void note_unread(const SlotMaps& maps, const std::vector<Slot>& read, Workflow w
 
 std::string text_of(Size size) { return fmt::format("{}x{}", size.width, size.height); }
 
-void note_normals(const Repairs& repairs, Texts& notes) {
+// "1234 (0.12 %)"
+std::string share_text(long long count, long long of) {
+  return fmt::format("{} ({:.2g} %)", count,
+                     100.0 * static_cast<double>(count) / static_cast<double>(of));
+}
+
+void note_normals(const Repairs& repairs, bool is_resampled, Texts& notes) {
+  if (repairs.not_unit) {
+    say(notes, "normal: {} are longer or shorter than 1 by more than {:.3f}{}, made unit",
+        share_text(repairs.not_unit, repairs.normals), unit_tolerance,
+        is_resampled ? " once resampled" : "");
+  }
   if (repairs.degenerate) {
-    say(notes, "normal: {} without direction, made flat", repairs.degenerate);
+    say(notes, "normal: {} without direction, made flat",
+        share_text(repairs.degenerate, repairs.normals));
   }
   if (repairs.below_surface) {
-    say(notes, "normal: {} below the surface, raised above it", repairs.below_surface);
+    say(notes, "normal: {} below the surface, raised above it",
+        share_text(repairs.below_surface, repairs.normals));
   }
 }
 
@@ -125,7 +138,8 @@ std::vector<std::string> Resolver::notes(const Repairs& repairs) const {
   note_missing(heads_, settings_.workflow, notes);
   note_unread(heads_, read_, settings_.workflow, notes);
   if (normal_) append(normal_->notes, notes);
-  note_normals(repairs, notes);
+  const SlotMap* normal = given_image(heads_, Slot::Normal);
+  note_normals(repairs, normal && normal->image.size != size_, notes);
   for (const Slot slot : read_) {
     const SlotMap* map = given_image(heads_, slot);
     if (!map || map->image.size == size_) continue;

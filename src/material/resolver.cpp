@@ -106,6 +106,8 @@ std::array<Plane, 3> read_normal(RowsInWork& work, const NormalDecoding& decodin
   if (map.value) {
     for (Plane& plane : decoded.normal) plane = spread(std::move(plane), work.size);
   } else {
+    work.repairs.normals += area(work.size);
+    work.repairs.not_unit += decoded.not_unit;
     work.repairs.degenerate += decoded.degenerate;
     work.repairs.below_surface += decoded.below_surface;
     work.repairs.unreadable_normals += decoded.unreadable;
@@ -260,6 +262,8 @@ void Repairs::add(const Repairs& other) {
     slots[i].clamped += other.slots[i].clamped;
     slots[i].unreadable += other.slots[i].unreadable;
   }
+  normals += other.normals;
+  not_unit += other.not_unit;
   degenerate += other.degenerate;
   below_surface += other.below_surface;
   unreadable_normals += other.unreadable_normals;

@@ -6,6 +6,7 @@
 
 #include "document_formats.h"
 #include "gltf_file.h"
+#include "gltf_transform.h"
 
 namespace kiln {
 namespace {
@@ -41,9 +42,7 @@ class GltfMaterial {
     note_unread();
     if (wraps_.size() == 1) result_.wrap = wraps_.front();
     if (wraps_.size() > 1) warn("its textures wrap in different ways, repeat is used");
-    if (coordinates_.size() > 1) {
-      warn("its textures use several sets of coordinates, and are read texel by texel");
-    }
+    note_placings();
     return std::move(result_);
   }
 
@@ -98,16 +97,23 @@ class GltfMaterial {
   }
 
   void note_use(const JsonAt& use, const JsonAt& texture) {
-    const size_t coordinates = use.index("texCoord").value_or(0);
-    if (!std::count(coordinates_.begin(), coordinates_.end(), coordinates)) {
-      coordinates_.push_back(coordinates);
-    }
-    const auto extensions = use.find("extensions");
-    if (extensions && extensions->find("KHR_texture_transform")) {
-      warn(use.where() + ": KHR_texture_transform is not applied");
-    }
     const Wrap wrap = wrap_of(texture);
     if (!std::count(wraps_.begin(), wraps_.end(), wrap)) wraps_.push_back(wrap);
+    const std::string& where = use.where();
+    if (std::count(uses_.begin(), uses_.end(), where)) return;
+    uses_.push_back(where);
+    placings_.add(where.substr(where.rfind('.') + 1), placing_of(use, wrap));
+  }
+
+  void note_placings() {
+    if (const std::string difference = placings_.difference(); !difference.empty()) {
+      warn("its textures lie differently on the mesh (" + difference +
+           "), but are read texel by texel as if they lay alike");
+    } else if (const std::string common = placings_.common(); !common.empty()) {
+      result_.set.ignored.push_back(
+          {"KHR_texture_transform",
+           common + " of all its textures alike: it places what is baked as it did these"});
+    }
   }
 
   Wrap wrap_of(const JsonAt& texture) const {
@@ -241,7 +247,8 @@ class GltfMaterial {
   const JsonAt& material_;
   DocumentMaterial result_;
   std::vector<Wrap> wraps_;
-  std::vector<size_t> coordinates_;
+  std::vector<std::string> uses_;
+  TexturePlacings placings_;
 };
 
 }  // namespace

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map_colors.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "color_reading.h"
+#include "kiln/core/names.h"
 
 namespace kiln {
 namespace {
@@ -27,7 +32,39 @@ void scale_colors(Layers& image, const SlotDecoding& decoding) {
   }
 }
 
+// The config's name of a tag, or empty where the config does not know it.
+std::string known_space(const std::string& tag, const ColorConfig& config) {
+  const std::vector<std::string> spaces = config.color_spaces();
+  const auto found = std::find_if(spaces.begin(), spaces.end(), [&](const std::string& space) {
+    return kebab(space) == kebab(tag);
+  });
+  return found == spaces.end() ? "" : *found;
+}
+
+// What is wrong with a space that nobody stated, where the file has a tag.
+std::string compared_with_tag(const PlannedMap& map, const FileFacts& facts,
+                              const ColorConfig& config, const std::string& from) {
+  if (!map.color_space.empty() || !facts.color_space_tag) return "";
+  const std::string tagged = known_space(*facts.color_space_tag, config);
+  if (tagged.empty() || tagged == config.resolve(from)) return "";
+  return fmt::format("{}: tagged {}, read as {}; state its color_space", map.path.string(),
+                     *facts.color_space_tag, from);
+}
+
 }  // namespace
+
+MapColor decide_color(const PlannedMap& map, const FileFacts& facts, const ColorConfig& config,
+                      const ColorChoice& color) {
+  if (slot_facts(map.slot).content == Content::Numbers) return {"", "data"};
+  const std::string from = space_of(map.color_space, facts.type);
+  MapColor decided{from, conversion_text(from, color.working)};
+  if (color.on_conversion == ColorChoice::OnConversion::Allow) return decided;
+  decided.warning = compared_with_tag(map, facts, config, from);
+  if (!decided.warning.empty() && color.on_conversion == ColorChoice::OnConversion::Refuse) {
+    throw Error(Fault::Input, decided.warning);
+  }
+  return decided;
+}
 
 void colors_to_working(Layers& image, const std::string& from, const PlannedMap& map,
                        const ColorConfig& config, const std::string& working) {

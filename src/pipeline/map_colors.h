@@ -8,6 +8,19 @@
 
 namespace kiln {
 
+/// How the colours of a map are read.
+struct MapColor {
+  std::string from;  ///< the space that they are in; empty: numbers
+  std::string text;  ///< "data", or "srgb_rec709_scene -> lin_rec709_scene"
+  std::string warning = {};
+};
+
+/// As stated, else by the file's type. The file's own tag is a hint, not an order: files are tagged
+/// wrongly more often than not.
+/// @error Fault::Input where the tag says otherwise and that is to be refused
+MapColor decide_color(const PlannedMap& map, const FileFacts& facts, const ColorConfig& config,
+                      const ColorChoice& color);
+
 /// Brings the colours of a map into the working space, scaled and offset in linear Rec.709.
 /// @param image  R, G and B; other layers stay
 /// @param from   the space that it is in

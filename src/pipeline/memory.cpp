@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <set>
 
-#include "kiln/io/image_file.h"
+#include "kiln/io/image_rows.h"
 #include "kiln/parallel/threads.h"
-#include "set_reader.h"
+#include "map_opening.h"
 
 namespace kiln {
 namespace {
 
 constexpr long long mebibyte = 1LL << 20;
 constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
-constexpr int resolved_planes = 11;
-constexpr int rows_of_block = 64;  // that decoders give at once
+constexpr int rows_of_block = 64;                    // that decoders give at once
 
 // "1.5 GiB", "300 MiB"
 std::string text_of(long long bytes) {
@@ -24,27 +23,21 @@ std::string text_of(long long bytes) {
   return mib >= 1024 ? fmt::format("{:.2f} GiB", mib / 1024) : fmt::format("{:.0f} MiB", mib);
 }
 
-RowCost cost_of_material(Size set) {
-  return {set.width, resolved_planes, 2 * resolved_planes, resolved_planes};
+RowCost cost_of_material(const SetCost& set) {
+  return {set.size.width, set.planes, 2 * set.planes, set.planes, set.held};
 }
 
-/// Of the files of a set that a task reads.
-struct SetShape {
-  Size size{1, 1};
-  int channels = 0;
-};
+bool is_of_anisotropy(Slot slot) {
+  return slot == Slot::Anisotropy || slot == Slot::AnisotropyAngle;
+}
 
-SetShape shape_of(const PlannedSet& set, const MapNeeds& needs) {
-  SetShape shape;
-  std::set<std::filesystem::path> seen;
-  for (const PlannedMap& map : maps_needed(set, needs)) {
-    if (map.path.empty() || !seen.insert(map.path).second) continue;
-    const FileFacts facts =
-        map.embedded.bytes ? inspect_image(map.embedded) : inspect_image(map.path);
-    if (area(facts.size) > area(shape.size)) shape.size = facts.size;
-    shape.channels += static_cast<int>(facts.channels.size());
-  }
-  return shape;
+// What of a file stays in memory: images inside others as they are there, and all texels of those
+// that cannot be read row by row.
+long long bytes_held(const PlannedMap& map, const FileFacts& facts, size_t channels) {
+  const bool is_embedded = map.embedded.bytes != nullptr;
+  if (!is_embedded && !is_held_whole(facts)) return 0;
+  const long long texels = 4LL * area(facts.size) * static_cast<long long>(channels);
+  return texels + (is_embedded ? static_cast<long long>(map.embedded.bytes->size()) : 0);
 }
 
 }  // namespace
@@ -53,7 +46,7 @@ long long bytes_of(const RowCost& cost, const BandPlan& bands) {
   const long long decoding = 5LL * cost.width * cost.channels * rows_of_block;
   const long long planes = 1LL * cost.planes * bands.at_once +
                            1LL * cost.working * std::min(bands.at_once, available_threads());
-  return process_bytes + decoding + 4LL * cost.width * bands.rows * planes;
+  return process_bytes + decoding + 4LL * cost.width * bands.rows * planes + cost.held;
 }
 
 BandPlan plan_bands(const RowCost& cost, long long budget) {
@@ -71,13 +64,37 @@ BandPlan require_bands(const RowCost& cost, long long budget) {
   return bands;
 }
 
-long long bytes_of_material(Size set, int halvings, const BandPlan& bands) {
+SetCost cost_of_set(const PlannedSet& set, const MapNeeds& needs) {
+  SetCost cost;
+  std::set<std::filesystem::path> seen;
+  const std::vector<PlannedMap> maps = maps_needed(set, needs);
+  for (const PlannedMap& map : maps) {
+    cost.planes += is_of_anisotropy(map.slot);
+    if (map.path.empty() || !seen.insert(map.path).second) continue;
+    const FileFacts facts = facts_of_file(map);
+    if (area(facts.size) > area(cost.size)) cost.size = facts.size;
+    cost.channels += static_cast<int>(facts.channels.size());
+    cost.held += bytes_held(map, facts, wanted_channels(map.path, facts, maps).size());
+  }
+  return cost;
+}
+
+RowCost cost_of_rows(const Plan& plan, const Task& task) {
+  const MapNeeds& needs = task.needs.maps;
+  const SetCost set = cost_of_set(plan.sets[*task.set], needs);
+  // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
+  const int planes = needs.resolved ? 2 * set.channels + 3 * set.planes : 3 * set.channels;
+  const auto kept = static_cast<long long>(needs.held * 4 * static_cast<double>(area(set.size)));
+  return {set.size.width, planes, 0, set.channels, set.held + kept};
+}
+
+long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands) {
   // The maps themselves, and their copy in a picture with its levels.
-  const long long maps = (area(set) >> (2 * halvings)) * 4 * resolved_planes;
+  const long long maps = (area(set.size) >> (2 * halvings)) * 4 * set.planes;
   return bytes_of(cost_of_material(set), bands) + maps + maps * 4 / 3;
 }
 
-BandPlan bands_of_material(Size set, int halvings, long long budget) {
+BandPlan bands_of_material(const SetCost& set, int halvings, long long budget) {
   BandPlan bands{128, 8};
   if (budget <= 0) return bands;
   const int least = std::max(16, 1 << halvings);
@@ -106,25 +123,17 @@ void require_memory(long long bytes, long long budget, const std::string& what) 
 
 std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
   if (!task.set || plan.sets[*task.set].fault) return std::nullopt;
-  const PlannedSet& set = plan.sets[*task.set];
   if (task.needs.maps.any()) {
-    const SetShape shape = shape_of(set, task.needs.maps);
-    const RowCost cost = row_cost(shape.size, shape.channels, task.needs.maps.resolved);
+    const RowCost cost = cost_of_rows(plan, task);
     return bytes_of(cost, plan_bands(cost, plan.max_memory));
   }
   if (!task.needs.material) return std::nullopt;
-  const SetShape shape = shape_of(set, {.resolved = true});
+  const SetCost set = cost_of_set(plan.sets[*task.set], {.resolved = true});
   const Size wanted = task.needs.material_for;
-  const Size picture = wanted.width > 0 ? wanted : shape.size;
-  const int halvings = halvings_of(shape.size, wanted);
-  const BandPlan bands = bands_of_material(shape.size, halvings, plan.max_memory);
-  return bytes_of_material(shape.size, halvings, bands) + 4LL * 7 * area(picture);
-}
-
-RowCost row_cost(Size set, int channels_read, bool resolved) {
-  // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
-  const int planes = resolved ? 2 * channels_read + 3 * resolved_planes : 3 * channels_read;
-  return {set.width, planes, 0, channels_read};
+  const Size picture = wanted.width > 0 ? wanted : set.size;
+  const int halvings = halvings_of(set.size, wanted);
+  const BandPlan bands = bands_of_material(set, halvings, plan.max_memory);
+  return bytes_of_material(set, halvings, bands) + 4LL * 7 * area(picture);
 }
 
 }  // namespace kiln

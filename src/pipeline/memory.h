@@ -17,10 +17,11 @@ struct RowCost {
   int planes = 0;       ///< float planes of every band on its way
   int working = 0;      ///< and of those that are being computed
   int channels = 0;     ///< of the files, which are decoded in blocks of rows of their own
+  long long held = 0;   ///< beside the bands, until the last is made [byte]
 };
 
-/// @param channels_read  of all files together
-RowCost row_cost(Size set, int channels_read, bool resolved);
+/// Of a task that reads maps band by band.
+RowCost cost_of_rows(const Plan& plan, const Task& task);
 
 /// Bands that fit into the budget beside what the process needs anyway, or else the narrowest; the
 /// default without a budget.
@@ -32,12 +33,21 @@ long long bytes_of(const RowCost& cost, const BandPlan& bands);
 /// plan_bands, where they do fit. @error Fault::Memory
 BandPlan require_bands(const RowCost& cost, long long budget);
 
-/// The same for a set that is held as one BRDF per texel, so often halved, with its mip levels.
-/// Bands have a multiple of 2^halvings rows.
-BandPlan bands_of_material(Size set, int halvings, long long budget);
+/// What the files of a set that such needs read come to.
+struct SetCost {
+  Size size{1, 1};     ///< of the largest
+  int channels = 0;    ///< of all together
+  int planes = 11;     ///< of one BRDF per texel: anisotropy and its angle are one more each
+  long long held = 0;  ///< of files that cannot be read row by row [byte]
+};
+SetCost cost_of_set(const PlannedSet& set, const MapNeeds& needs);
+
+/// Bands of a set that is held as one BRDF per texel, so often halved, with its mip levels: a
+/// multiple of 2^halvings rows.
+BandPlan bands_of_material(const SetCost& set, int halvings, long long budget);
 
 /// Bytes that the process takes at most with such a set.
-long long bytes_of_material(Size set, int halvings, const BandPlan& bands);
+long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands);
 
 /// How often a set of that size may be halved and still be read at every texel.
 /// @param wanted  as Needs::material_for; no width: never

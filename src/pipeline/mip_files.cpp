@@ -173,9 +173,7 @@ struct Band {
 
 Written write_mips(const Plan& plan, const Task& task, const MipSheet& sheet, SetReader& reader,
                    const ColorConfig& config, const std::function<void()>& heed) {
-  const Size set = reader.bands().size;
-  const BandPlan bands = require_bands(
-      row_cost(set, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
+  const BandPlan bands = require_bands(cost_of_rows(plan, task), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet);
   const auto write = [&](Band& band) {
     std::vector<MipRows> made = sheet.filter(band.rows.get());

@@ -119,6 +119,10 @@ SetChoice read_set(const Node& node, const Reading& reading) {
   with(node, "glob", [&](const Node& at) { set.glob = joined(reading.folder, at.text).string(); });
   with(node, "path", [&](const Node& at) { set.path = joined(reading.folder, at.text); });
   set.material = text_at(node, "material");
+  with(node, "packed", [&](const Node& at) {
+    attempt(reading.mistakes, at.place,
+            [&] { set.packed = layout_text(one_text(at), reading.folder); });
+  });
   with(node, "maps", [&](const Node& maps) { set.maps = read_maps(maps, reading); });
   with(node, "naming", [&](const Node& names) { set.naming = scalars(names); });
   read_reading(node, set);
@@ -127,6 +131,9 @@ SetChoice read_set(const Node& node, const Reading& reading) {
   if (sources != 1) reading.mistakes.add(node.place, "a set needs one of: glob, path, maps");
   if (!set.material.empty() && !is_material_document(set.path)) {
     reading.mistakes.add(node.place, "a `material` is one of a .gltf, .glb or .mtlx file");
+  }
+  if (!set.packed.empty() && set.path.empty()) {
+    reading.mistakes.add(node.place, "`packed` is the layout of an image that `path` names");
   }
   if (!set.glob.empty() && !set.name.empty()) {
     reading.mistakes.add(node.place, "a glob makes many sets and cannot have one name");
@@ -169,19 +176,33 @@ bool read_runner_key(const Entry& entry, BakeChoice& bake) {
   return false;
 }
 
-BakeChoice read_bake(const Node& node) {
+const BakeFacts* facts_of_bake(const std::string& bake) {
+  const auto& all = all_bakes();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const BakeFacts& facts) { return facts.name == bake; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+bool takes(const BakeFacts& facts, const std::string& key) {
+  return std::any_of(facts.params.begin(), facts.params.end(),
+                     [&](const ParamFacts& param) { return param.name == key; });
+}
+
+BakeChoice read_bake(const Node& node, const Reading& reading) {
   BakeChoice bake;
   bake.place = node.place;
   bake.bake = kebab(text_at(node, "bake"));
-  std::vector<std::string> own;
-  for (const BakeFacts& facts : all_bakes()) {
-    if (facts.name != bake.bake) continue;
-    for (const ParamFacts& param : facts.params) own.push_back(param.name);
-  }
+  const BakeFacts* facts = facts_of_bake(bake.bake);
   for (const Entry& entry : node.entries) {
-    const bool is_own = std::count(own.begin(), own.end(), snake(entry.key)) > 0;
+    const std::string key = snake(entry.key);
+    const bool is_own = facts && takes(*facts, key);
     if (!is_own && read_runner_key(entry, bake)) continue;
-    bake.settings.push_back({snake(entry.key), one_text(entry.value), entry.value.place});
+    std::string text = one_text(entry.value);
+    if (is_own && key == facts->layout) {
+      attempt(reading.mistakes, entry.value.place,
+              [&] { text = layout_text(text, reading.folder); });
+    }
+    bake.settings.push_back({key, text, entry.value.place});
   }
   return bake;
 }
@@ -231,7 +252,7 @@ Pipeline read_root(const Node& root, const Reading& reading) {
   });
   with(root, "material", [&](const Node& node) { pipeline.material = read_material(node); });
   with(root, "bakes", [&](const Node& node) {
-    for (const Node& item : node.items) pipeline.bakes.push_back(read_bake(item));
+    for (const Node& item : node.items) pipeline.bakes.push_back(read_bake(item, reading));
   });
   return pipeline;
 }
@@ -255,7 +276,10 @@ Node checked_block(const std::vector<std::pair<std::string, std::string>>& keys,
 }  // namespace
 
 BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& keys) {
-  return read_bake(checked_block(keys, "bake"));
+  Mistakes mistakes;
+  BakeChoice bake = read_bake(checked_block(keys, "bake"), {{}, mistakes});
+  mistakes.raise();
+  return bake;
 }
 
 EnvironmentChoice environment_choice(const std::string& name,

@@ -146,7 +146,9 @@ BlockFacts set_block() {
       "set",
       "one texture set, or one per folder that a pattern matches",
       {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
-       text("path", "one folder, a set; or a glTF or MaterialX file, a set a material"),
+       text("path",
+            "one folder, a set; or a glTF or MaterialX file, a set a material; or a packed image"),
+       listed(text("packed", "layout of that image, as bake pack takes one")),
        text("material", "the one material of that file that is wanted"),
        text("name", "name of the set"),
        shaped("maps", Shape::Named, "map", "files by slot, instead of a folder"),
@@ -205,12 +207,26 @@ BlockFacts material_file_block() {
   return with_reading_keys(std::move(block));
 }
 
+BlockFacts layouts_file_block() {
+  return {"layouts-file",
+          "layouts of packed files",
+          {version_key(), required(shaped("layouts", Shape::Named, "layout", "layouts by name"))}};
+}
+
+BlockFacts layout_block() {
+  return {"layout",
+          "files, and what their channels hold",
+          {text("summary", "what it is for"),
+           required(shaped("files", Shape::Named, "", "by name: base_color, opacity"))}};
+}
+
 }  // namespace
 
 const std::vector<BlockFacts>& all_blocks() {
   static const std::vector<BlockFacts> blocks = {
-      pipeline_block(), color_block(),    limits_block(),   environment_block(),  set_block(),
-      map_block(),      material_block(), any_bake_block(), material_file_block()};
+      pipeline_block(),      color_block(),        limits_block(),   environment_block(),
+      set_block(),           map_block(),          material_block(), any_bake_block(),
+      material_file_block(), layouts_file_block(), layout_block()};
   return blocks;
 }
 

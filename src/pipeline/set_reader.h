@@ -5,18 +5,14 @@
 #include <mutex>
 #include <vector>
 
+#include "file_windows.h"
 #include "kiln/bake/bake.h"
 #include "kiln/color/color.h"
-#include "kiln/io/image_rows.h"
 #include "kiln/material/map_bands.h"
 #include "kiln/material/resolver.h"
 #include "kiln/pipeline/report.h"
 
 namespace kiln {
-
-/// The maps of a set that such needs read. Others affect neither size nor outcome: they are not
-/// even opened.
-std::vector<PlannedMap> maps_needed(const PlannedSet& set, const MapNeeds& needs);
 
 /// The maps of a set, read side by side from their first row to their last.
 class SetReader {
@@ -30,20 +26,15 @@ class SetReader {
 
   /// What bakes see of it; outlived by the reader.
   const MapBands& bands() const { return bands_; }
-  /// Of all files together.
-  int channels_read() const;
   /// The rows below those before.
   MapRows next(int rows);
   /// What became of each slot, and of the texels read so far.
   SetRecord record() const;
 
  private:
-  /// A file, and how far it is read.
   struct File {
     std::filesystem::path path;
-    ImageRows rows;
-    int next = 0;  ///< row
-    Layers tail;   ///< the last rows read, where the next window may want them again
+    FileWindows windows;
   };
   /// A map that is an image: which channels of which file, and how its colours come to the working
   /// space.
@@ -56,17 +47,11 @@ class SetReader {
   };
 
   void open(const std::vector<PlannedMap>& maps);
-  void add(const PlannedMap& map);
   void add_constant(const PlannedMap& map);
   size_t file_of(const PlannedMap& map, const std::vector<PlannedMap>& maps);
-  std::string decide_color(const PlannedMap& map, const FileFacts& facts, std::string& from);
-  void compare_with_tag(const PlannedMap& map, const FileFacts& facts, const std::string& from);
-  std::string known_space(const std::string& tag) const;
   void decide_size(const MapNeeds& needs);
-  std::optional<NormalForm> survey_normals() const;
   const Map* find(Slot slot) const;
 
-  MapRows::Window read_window(File& file, RowRange rows) const;
   Layers picked(const Map& map, const MapRows& rows) const;
   Layers fitted(const Map& map, Layers image, const MapRows& rows) const;
   SlotMaps stored(const MapRows& rows) const;

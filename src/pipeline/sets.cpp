@@ -10,6 +10,7 @@
 #include "glob.h"
 #include "kiln/core/names.h"
 #include "material_documents.h"
+#include "packed_file.h"
 #include "tiles.h"
 
 namespace kiln {
@@ -62,10 +63,11 @@ NamingRules rules_of(const SetChoice& choice, const MaterialChoice& material) {
   return {choice.naming, choice.workflow ? choice.workflow : material.workflow};
 }
 
-std::vector<PlannedSet> sets_in(const fs::path& folder, const std::string& name,
-                                const SetChoice& choice, const MaterialChoice& material) {
+std::vector<PlannedSet> sets_in(const fs::path& folder, const std::vector<std::string>& files,
+                                const std::string& name, const SetChoice& choice,
+                                const MaterialChoice& material) {
   std::vector<PlannedSet> sets;
-  for (const FoundSet& found : find_sets(name, files_in(folder), rules_of(choice, material))) {
+  for (const FoundSet& found : find_sets(name, files, rules_of(choice, material))) {
     PlannedSet set;
     set.name = found.name;
     set.source = folder.string();
@@ -91,7 +93,8 @@ void plan_globbed(const SetChoice& choice, const MaterialChoice& material, Plan&
   }
   const size_t before = plan.sets.size();
   for (const fs::path& folder : folders) {
-    std::vector<PlannedSet> sets = sets_in(folder, folder_name(folder), choice, material);
+    std::vector<PlannedSet> sets =
+        sets_in(folder, files_in(folder), folder_name(folder), choice, material);
     if (sets.empty()) {
       plan.warnings.push_back(
           fmt::format("{}: skipped, no file is named like a known map", folder.string()));
@@ -142,29 +145,55 @@ std::vector<PlannedSet> sets_of_document(const SetChoice& choice) {
   return sets;
 }
 
-// A folder named directly is wanted: if it is of no use, its tasks fail instead of vanishing.
-void plan_folder(const SetChoice& choice, const MaterialChoice& material, Plan& plan) {
+std::vector<PlannedSet> sets_of_folder(const SetChoice& choice, const MaterialChoice& material) {
   const fs::path& folder = choice.path;
-  if (is_material_document(folder)) {
-    for (PlannedSet& set : sets_of_document(choice)) plan.sets.push_back(std::move(set));
-    return;
-  }
   const std::string name = choice.name.empty() ? folder_name(folder) : choice.name;
-  std::vector<PlannedSet> sets;
+  std::vector<PlannedSet> sets = sets_in(folder, files_in(folder), name, choice, material);
+  if (!sets.empty()) return sets;
+  const Error fault(Fault::Input,
+                    fmt::format("{}: no file in it is named like a known map", folder.string()));
+  return {broken_set(name, folder, fault)};
+}
+
+// An image that holds a set by itself: by its layout, else by the token that its name ends in.
+std::vector<PlannedSet> sets_of_image(const SetChoice& choice, const MaterialChoice& material) {
+  const fs::path& image = choice.path;
+  const std::string name = choice.name.empty() ? image.stem().string() : choice.name;
+  if (choice.packed.empty()) {
+    const std::vector<std::string> file{image.filename().string()};
+    std::vector<PlannedSet> sets = sets_in(image.parent_path(), file, name, choice, material);
+    if (!sets.empty()) return sets;
+    const Error fault(Fault::Input,
+                      fmt::format("{}: its name is that of no map, expected a folder of maps, or "
+                                  "the layout of this file as `packed`",
+                                  image.string()));
+    return {broken_set(name, image, fault)};
+  }
+  PlannedSet set = packed_set(image, choice.packed);
+  if (!choice.name.empty()) set.name = choice.name;
+  const std::optional<Workflow> stated = choice.workflow ? choice.workflow : material.workflow;
+  const Workflow workflow = stated.value_or(set.reading.workflow);
+  set.reading = choice.reading;
+  set.reading.workflow = workflow;
+  if (stated) set.workflow_reason = "stated";
+  for (PlannedMap& map : set.maps) map.encoding = material.specular;
+  return {set};
+}
+
+// What is named directly is wanted: if it is of no use, its tasks fail instead of vanishing.
+std::vector<PlannedSet> sets_at_path(const SetChoice& choice, const MaterialChoice& material) {
+  const fs::path& path = choice.path;
   std::error_code failure;
-  std::string problem;
-  if (!fs::is_directory(folder, failure)) {
-    problem =
-        fs::exists(folder, failure) ? "is a file, expected a folder of maps" : "no such folder";
-  } else {
-    sets = sets_in(folder, name, choice, material);
-    problem = "no file in it is named like a known map";
+  const bool is_folder = fs::is_directory(path, failure);
+  if (!choice.packed.empty() && (is_folder || is_material_document(path))) {
+    throw Error(Fault::Usage,
+                fmt::format("packed: {} is no image, but has maps of its own", path.string()));
   }
-  if (sets.empty()) {
-    const Error fault(Fault::Input, fmt::format("{}: {}", folder.string(), problem));
-    sets.push_back(broken_set(name, folder, fault));
-  }
-  plan.sets.insert(plan.sets.end(), sets.begin(), sets.end());
+  if (is_material_document(path)) return sets_of_document(choice);
+  if (is_folder) return sets_of_folder(choice, material);
+  if (fs::exists(path, failure)) return sets_of_image(choice, material);
+  const Error fault(Fault::Input, fmt::format("{}: no such folder", path.string()));
+  return {broken_set(choice.name.empty() ? folder_name(path) : choice.name, path, fault)};
 }
 
 void plan_maps(const SetChoice& choice, const MaterialChoice& material, Plan& plan) {
@@ -202,7 +231,7 @@ void plan_sets(const Pipeline& pipeline, Plan& plan, Mistakes& mistakes) {
     if (!choice.glob.empty()) {
       plan_globbed(choice, pipeline.material, own, mistakes);
     } else if (!choice.path.empty()) {
-      attempt(mistakes, choice.place, [&] { plan_folder(choice, pipeline.material, own); });
+      attempt(mistakes, choice.place, [&] { own.sets = sets_at_path(choice, pipeline.material); });
     } else {
       plan_maps(choice, pipeline.material, own);
     }

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "kiln/io/image_file.h"
 #include "kiln/parallel/rows.h"
 #include "kiln/parallel/stages.h"
 #include "kiln/pipeline/report.h"
+#include "kiln/store/publish.h"
+#include "material_text.h"
 #include "memory.h"
 
 namespace kiln {
@@ -63,6 +66,23 @@ std::vector<File> open_files(const Plan& plan, const Task& task, const MapSheet&
   return files;
 }
 
+// What reads the files back as one set, beside them.
+void write_material(const Plan& plan, const Task& task, const MapSheet& sheet,
+                    const MapBands& bands, Written& written) {
+  const fs::path folder = (plan.output / written.outputs.front()).parent_path();
+  std::vector<std::string> files;
+  for (const std::string& name : written.outputs) {
+    files.push_back(fs::path(name).filename().string());
+  }
+  const std::string name =
+      fs::path(map_file_name(task, "material", ".yaml", false, 1)).replace_extension(".yaml");
+  MaterialText material =
+      material_text(sheet, files, plan.sets[*task.set], bands, folder.empty() ? "." : folder);
+  publish_text(plan.output / name, material.text);
+  written.outputs.push_back(name);
+  std::move(material.notes.begin(), material.notes.end(), std::back_inserter(written.notes));
+}
+
 /// A band, from what is read to what is written.
 struct Band {
   MapRows read;
@@ -74,8 +94,7 @@ struct Band {
 Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
                     const ColorConfig& config, const std::function<void()>& heed) {
   const Size size = reader.bands().size;
-  const BandPlan bands = require_bands(
-      row_cost(size, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
+  const BandPlan bands = require_bands(cost_of_rows(plan, task), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet, size);
   const auto make = [&](Band& band) {
     band.made = sheet.make(band.read);
@@ -106,6 +125,7 @@ Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, S
     const std::string note = clamping_note(file.name, file.type, facts);
     if (!note.empty()) written.notes.push_back(note);
   }
+  if (sheet.material) write_material(plan, task, sheet, reader.bands(), written);
   return written;
 }
 

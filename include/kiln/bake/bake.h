@@ -42,15 +42,16 @@ struct BakeFacts {
   std::vector<ParamFacts> params;
   Product product = Product::Numbers;
   bool own_lights = false;  ///< its settings may hold lights that do without an environment
+  std::string layout = {};  ///< the parameter that is a layout: of a preset or a file, its words
 };
 
 /// Maps of a set that are read band by band.
 struct MapNeeds {
   bool resolved = false;          ///< as one BRDF per texel
   std::vector<Slot> stored = {};  ///< as stored, where they are given
-  bool all = false;               ///< as stored, all that are given
+  double held = 0;                ///< planes of the set's size that are held beside the bands
 
-  bool any() const { return resolved || all || !stored.empty(); }
+  bool any() const { return resolved || !stored.empty(); }
 };
 
 /// What a bake reads besides its settings. A pointer it did not ask for is null.
@@ -111,11 +112,21 @@ struct Artifact {
   std::string color_from = {}, color_to = {};
 };
 
+/// What the files of a sheet are when they are read back as one set.
+struct SheetMaterial {
+  Workflow workflow = Workflow::MetalRough;
+  std::vector<Slot> slots;  ///< that the files fill, in their order
+  std::vector<Slot>
+      replaced;  ///< of the set, which the files stand for: its other maps stay beside
+};
+
 /// Files of one size that are made together, a band of rows at a time, from the maps of a set.
 struct MapSheet {
   std::vector<Artifact> files;  ///< their images have no texels: names of layers
   /// The same rows of every file. May be called from many threads at once.
   std::function<std::vector<Layers>(const MapRows&)> make;
+  /// Where it is there, `material.yaml` beside the files says how they are read back.
+  std::optional<SheetMaterial> material = {};
 };
 
 struct Baked {

@@ -12,6 +12,9 @@ namespace io {
 class RowSource;
 }
 
+/// Whether ImageRows holds such a file whole, by its format alone: HDR, DDS, KTX, .npy and .env.
+bool is_held_whole(const FileFacts& facts);
+
 /// An image file that is read from its first row to its last, some rows at a time: the same values
 /// as read_image, while no more is held than a block of rows.
 ///

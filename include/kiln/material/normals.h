@@ -42,8 +42,14 @@ struct NormalDecoding {
   float strength = 1;  ///< factor of x and y, before normals are made unit
 };
 
+/// How far the length of a stored normal may be from 1: as far as 8 bits put it, where every
+/// component is off by half a code, 1/255, and red and green by the choice of the middle code
+/// again, sqrt(2^2 + 2^2 + 1^2) / 255.
+inline constexpr float unit_tolerance = 3.0f / 255.0f;
+
 struct DecodedNormals {
   std::array<Plane, 3> normal;  ///< unit, +Y up, z > 0
+  long long not_unit = 0;       ///< off by more than unit_tolerance: made unit; no degenerate ones
   long long degenerate = 0;     ///< shorter than 0.05: replaced by (0, 0, 1)
   long long below_surface = 0;  ///< z <= 0: z raised to 0.05, then normalised
   long long unreadable = 0;     ///< NaN or Inf: replaced by (0, 0, 1)

@@ -18,7 +18,8 @@ struct Repairs {
     long long clamped = 0, unreadable = 0;
   };
   std::array<OfSlot, slot_list.size()> slots = {};
-  long long degenerate = 0, below_surface = 0, unreadable_normals = 0;
+  long long normals = 0;  ///< that were decoded; of these:
+  long long not_unit = 0, degenerate = 0, below_surface = 0, unreadable_normals = 0;
 
   void add(const Repairs& other);
 };

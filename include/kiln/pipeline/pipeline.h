@@ -49,12 +49,13 @@ struct MapChoice {
   Place place = {};
 };
 
-/// An entry of `sets`: a pattern of folders, a folder or document, or maps by slot.
+/// An entry of `sets`: a pattern of folders, a folder, document or packed image, or maps by slot.
 struct SetChoice {
   Place place;
   std::string glob;
   std::filesystem::path path;
   std::string material = {};  ///< of a document, the one that is wanted; empty: all
+  std::string packed = {};    ///< of a lone image, its layout as parse_layout reads it
   std::string name;
   std::string chosen = {};  ///< the one of its sets that is wanted; empty: all
   std::vector<MapChoice> maps;
@@ -125,6 +126,13 @@ BakeChoice bake_choice(const std::vector<std::pair<std::string, std::string>>& k
 /// An entry of `environment`, likewise.
 EnvironmentChoice environment_choice(const std::string& name,
                                      const std::vector<std::pair<std::string, std::string>>& keys);
+
+/// A layout of packed files in the words that parse_layout reads: as it is where it is in such
+/// words, else that of a preset, or of a file ("engines.yaml", "engines.yaml#mobile").
+/// @param folder  that the file is relative to
+/// @error Fault::Usage for unknown names, and for every mistake in the file, with its place;
+///        Fault::Input when the file cannot be read
+std::string layout_text(const std::string& text, const std::filesystem::path& folder);
 
 /// Whether the name is that of a document of materials: .gltf, .glb or .mtlx.
 bool is_material_document(const std::filesystem::path& path);

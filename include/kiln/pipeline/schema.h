@@ -33,8 +33,9 @@ struct BlockFacts {
   std::string shorthand = {};  ///< a scalar in place of the block means this key
 };
 
-/// Every block of a pipeline file and of a material file. "pipeline" and "material-file" are the
-/// roots; the keys of "bake" are those of every bake, and a bake's own come from bake_block().
+/// Every block of a pipeline file, a material file and a file of layouts. "pipeline",
+/// "material-file" and "layouts-file" are the roots; the keys of "bake" are those of every bake,
+/// and a bake's own come from bake_block().
 const std::vector<BlockFacts>& all_blocks();
 
 /// @error Fault::Internal when there is none of that name

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kiln/bake/pack_layout.h"
+
 #include <gmock/gmock.h>
 
 #include "kiln/core/error.h"
-#include "pack_presets.h"
 
 namespace kiln {
 namespace {
@@ -49,6 +50,14 @@ TEST(PackLayout, ReadsSmoothnessAsOneMinusRoughness) {
   EXPECT_TRUE(files[0].channels[0].inverted);
   EXPECT_FALSE(files[0].channels[1].inverted);
   EXPECT_TRUE(files[0].channels[2].inverted);
+}
+
+TEST(PackLayout, TakesNormalsInEitherConvention) {
+  const auto files = parse_layout("a = normal_dx; b = normal_gl.g, normal.r");
+  EXPECT_EQ(files[0].channels[2].slot, Slot::Normal);
+  EXPECT_EQ(files[0].channels[2].convention, NormalConvention::DirectX);
+  EXPECT_EQ(files[1].channels[0].convention, NormalConvention::OpenGl);
+  EXPECT_EQ(files[1].channels[1].convention, NormalConvention::OpenGl);
 }
 
 TEST(PackLayout, SaysWhatItDoesNotUnderstand) {

@@ -116,6 +116,47 @@ TEST(NormalDecoding, ReplacesVectorsWithoutDirectionAndCountsThem) {
   EXPECT_EQ(only(decoded), (std::array<float, 3>{0, 0, 1}));
 }
 
+// Length is off by at most that of the error of the components, half a code in z and, with the
+// other middle code, a whole one in x and y.
+TEST(NormalDecoding, FindsEveryUnitVectorUnitThatEightBitsHold) {
+  constexpr int steps = 60;
+  Layers stored = make_layers({4 * steps, steps}, {"R", "G", "B"});
+  for (const float half : {127.0f, 127.5f, 128.0f}) {
+    for (int i = 0; i < steps; ++i) {
+      for (int j = 0; j < 4 * steps; ++j) {
+        const double theta = 1.5 * i / steps, phi = 6.28 * j / (4 * steps);
+        const std::array<double, 3> n{std::sin(theta) * std::cos(phi),
+                                      std::sin(theta) * std::sin(phi), std::cos(theta)};
+        for (size_t c = 0; c < 3; ++c) {
+          const double code = std::round((c < 2 ? half : 127.5) + 127.5 * n[c]);
+          stored.layers[c].plane.at(j, i) =
+              static_cast<float>(std::min(std::max(code, 0.0), 255.0) / 255);
+        }
+      }
+    }
+    EXPECT_EQ(decode_normals(stored, {}).not_unit, 0) << half;
+  }
+}
+
+TEST(NormalDecoding, CountsLengthsThatRoundingDoesNotExplain) {
+  const auto count = [](float length, NormalDecoding how = {}) {
+    const float x = 0.6f * length, z = 0.8f * length;
+    return decode_normals(one_texel({0.5f + 0.5f * x, 0.5f, 0.5f + 0.5f * z}), how).not_unit;
+  };
+  EXPECT_EQ(count(1.0f), 0);
+  EXPECT_EQ(count(0.99f), 0);
+  EXPECT_EQ(count(0.98f), 1);
+  EXPECT_EQ(count(1.02f), 1);
+  EXPECT_EQ(count(0.03f), 0);  // without direction
+  EXPECT_EQ(count(nan), 0);
+  EXPECT_EQ(count(1.0f, {.strength = 3}), 0);  // what is stored counts, not what is made of it
+}
+
+TEST(NormalDecoding, CountsSlopesOfTwoChannelsThatNoUnitVectorHas) {
+  EXPECT_EQ(decode_normals(one_texel({0.8f, 0.5f}), {}).not_unit, 0);
+  EXPECT_EQ(decode_normals(one_texel({0.95f, 0.95f}), {}).not_unit, 1);
+}
+
 TEST(NormalDecoding, RaisesVectorsBelowTheSurfaceAndCountsThem) {
   const DecodedNormals decoded = decode_normals(one_texel({0.9f, 0.5f, 0.2f}), {});
   EXPECT_EQ(decoded.below_surface, 1);

@@ -126,6 +126,7 @@ TEST(RealScans, OfCopperHaveNormalsWithoutDirectionThatAreCounted) {
       data / "data" / "materials" / "copper_tiles_01_2k" / "Copper_tiles_01_Normal.png";
   const DecodedNormals decoded = decode_normals(read_image(file).image, {});
   EXPECT_GT(decoded.degenerate, 0);
+  EXPECT_GT(decoded.not_unit, decoded.degenerate);
   EXPECT_EQ(decoded.below_surface, 0);
   EXPECT_FALSE(decoded.two_channel);
   EXPECT_NEAR(mean_of(decoded.normal[0]), 0.0047, 0.01);

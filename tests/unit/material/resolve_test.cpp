@@ -211,6 +211,19 @@ TEST(Resolving, ReplacesUnreadableValuesByTheSlotsConstantAndCounts) {
   EXPECT_THAT(resolved.warnings, Contains("metallic: 2 values are NaN or Inf, replaced by 0"));
 }
 
+TEST(Resolving, TellsHowManyNormalsAreNotUnitAndHowManyHaveNoDirection) {
+  SlotMap normal = image({20, 10}, {0.5f, 0.5f, 1.0f});
+  normal.convention = NormalConvention::OpenGl;
+  normal.image.layers[2].plane.at(3, 3) = 0.9f;
+  normal.image.layers[2].plane.at(4, 3) = 0.95f;
+  normal.image.layers[2].plane.at(5, 3) = 0.5f;
+  const Resolved resolved = resolve({{Slot::Normal, normal}}, {});
+  EXPECT_THAT(resolved.notes, Contains("normal: 2 (1 %) are longer or shorter than 1 by more than "
+                                       "0.012, made unit"));
+  EXPECT_THAT(resolved.notes, Contains("normal: 1 (0.5 %) without direction, made flat"));
+  EXPECT_EQ(resolved.svbrdf.normal[2].at(3, 3), 1.0f);
+}
+
 TEST(Resolving, SpreadsAGreyImageOverTheChannelsOfAColour) {
   const Resolved resolved = resolve({{Slot::BaseColor, image({2, 2}, {0.3f})}}, {});
   expect_near(texel(resolved.svbrdf.diffuse_color), {0.3f, 0.3f, 0.3f});

@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 
 #include "kiln/pipeline/run.h"
-#include "support/workshop.h"
+#include "support/planned_sets.h"
 
 namespace kiln {
 namespace {
 
+using test::input_fault_of;
+using test::map_of;
+using test::sets_of_document;
 using test::text_of;
 using test::Workshop;
 using testing::AllOf;
@@ -15,29 +18,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::vector<PlannedSet> sets_of(const std::filesystem::path& file, const std::string& keys = "") {
-  const std::string set = "sets: [{ path: " + file.filename().string() + keys + " }]\n";
-  const auto pipeline = file.parent_path() / "p.yaml";
-  std::ofstream(pipeline) << "version: 1\n" << set << "bakes: []\n";
-  return planned_sets(read_pipeline(pipeline));
-}
-
 std::vector<PlannedSet> sets_of(const Workshop& shop, const std::string& json) {
-  return sets_of(shop.write("a.gltf", R"({"asset": {"version": "2.0"}, )" + json + "}"));
+  return sets_of_document(shop.write("a.gltf", R"({"asset": {"version": "2.0"}, )" + json + "}"));
 }
 
 std::string fault_of_json(const Workshop& shop, const std::string& json) {
-  const std::vector<PlannedSet> sets = sets_of(shop, json);
-  if (sets.size() != 1 || !sets[0].fault) return "no fault";
-  EXPECT_EQ(sets[0].fault->fault(), Fault::Input);
-  return sets[0].fault->what();
-}
-
-const PlannedMap& map_of(const PlannedSet& set, Slot slot) {
-  for (const PlannedMap& map : set.maps) {
-    if (map.slot == slot) return map;
-  }
-  throw std::runtime_error("no map for " + std::string(slot_name(slot)));
+  return input_fault_of(sets_of(shop, json));
 }
 
 bool has(const PlannedSet& set, Slot slot) {
@@ -127,18 +113,60 @@ TEST(Gltf, ReadsSpecularIorAnisotropyAndSpecularGlossiness) {
   EXPECT_EQ(map_of(sets[1], Slot::Gloss).decoding.scale[0], 0.7f);
 }
 
+std::string two_textures(const std::string& base, const std::string& normal) {
+  const auto use = [](const std::string& index, const std::string& transform) {
+    if (transform.empty()) return "{\"index\": " + index + "}";
+    return "{\"index\": " + index + ", \"extensions\": {\"KHR_texture_transform\": " + transform +
+           "}}";
+  };
+  return R"("images": [{"uri": "c.png"}, {"uri": "n.png"}],
+    "textures": [{"source": 0}, {"source": 1}], "materials": [{
+    "pbrMetallicRoughness": {"baseColorTexture": )" +
+         use("0", base) + R"(}, "normalTexture": )" + use("1", normal) + "}]";
+}
+
+TEST(Gltf, TakesATransformThatAllTexturesShareForThatOfTheMesh) {
+  const Workshop shop;
+  const std::string tiled = R"({"offset": [0.25, 0], "scale": [2, 2]})";
+  const PlannedSet set = sets_of(shop, two_textures(tiled, tiled)).at(0);
+  EXPECT_THAT(set.warnings, IsEmpty());
+  ASSERT_EQ(set.ignored.size(), 1u);
+  EXPECT_EQ(set.ignored[0].file, "KHR_texture_transform");
+  EXPECT_THAT(set.ignored[0].reason, HasSubstr("offset 0.25 0, scale 2 2 of all its textures"));
+}
+
+TEST(Gltf, SeesThatATransformMovesNothing) {
+  const Workshop shop;
+  const PlannedSet set =
+      sets_of(shop, two_textures(R"({"offset": [3, -1], "scale": [1, 1]})", "")).at(0);
+  EXPECT_THAT(set.warnings, IsEmpty());
+  EXPECT_THAT(set.ignored, IsEmpty());
+}
+
+TEST(Gltf, SaysWhichTexturesLieDifferentlyOnTheMesh) {
+  const Workshop shop;
+  const PlannedSet moved =
+      sets_of(shop, two_textures(R"({"scale": [4, 4], "rotation": 0.5})", "")).at(0);
+  EXPECT_THAT(moved.warnings, ElementsAre(HasSubstr(
+                                  "(baseColorTexture rotation 0.5, scale 4 4; normalTexture as it "
+                                  "is), but are read texel by texel")));
+  const PlannedSet second = sets_of(shop, two_textures(R"({"texCoord": 1})", "")).at(0);
+  EXPECT_THAT(second.warnings, ElementsAre(HasSubstr("baseColorTexture as it is on coordinates 1; "
+                                                     "normalTexture as it is on coordinates 0")));
+}
+
 TEST(Gltf, ChoosesAMaterialByName) {
   const Workshop shop;
   const auto file = shop.write("two.gltf",
                                R"({"asset": {"version": "2.0"},
                                "materials": [{"name": "a"}, {"name": "b/c"}, {"name": "a"}]})");
-  const auto all = sets_of(file);
+  const auto all = sets_of_document(file);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[1].name, "b_c");
   EXPECT_EQ(all[2].name, "a_2");
-  EXPECT_EQ(sets_of(file, ", material: a_2, name: hero").at(0).name, "hero");
-  EXPECT_EQ(sets_of(file, ", name: hero").at(1).name, "hero.b_c");
-  EXPECT_THAT(test::message_of([&] { sets_of(file, ", material: a_3"); }),
+  EXPECT_EQ(sets_of_document(file, ", material: a_2, name: hero").at(0).name, "hero");
+  EXPECT_EQ(sets_of_document(file, ", name: hero").at(1).name, "hero.b_c");
+  EXPECT_THAT(test::message_of([&] { sets_of_document(file, ", material: a_3"); }),
               HasSubstr("did you mean 'a_2'?"));
 }
 
@@ -218,14 +246,16 @@ TEST(Gltf, HoldsImagesBesideItselfInItsTextAndInItsBinaryChunk) {
 
 TEST(Gltf, ThatIsBrokenSaysWhere) {
   const Workshop shop;
-  const auto broken = sets_of(shop.write("x.gltf", "{\n  \"asset\": {,\n}"));
+  const auto broken = sets_of_document(shop.write("x.gltf", "{\n  \"asset\": {,\n}"));
   ASSERT_TRUE(broken.at(0).fault);
   EXPECT_EQ(broken[0].fault->fault(), Fault::Input);
   EXPECT_THAT(broken[0].fault->what(), HasSubstr("x.gltf:2:13: this is not JSON"));
-  EXPECT_THAT(sets_of(shop.write("x.gltf", "{"))[0].fault->what(), HasSubstr("ends too early"));
-  EXPECT_THAT(sets_of(shop / "none.gltf")[0].fault->what(), HasSubstr("no such file"));
-  EXPECT_THAT(sets_of(shop.write("x.gltf", R"({"asset": {"version": "1.0"}})"))[0].fault->what(),
-              HasSubstr("version is '1.0', expected 2.0"));
+  EXPECT_THAT(sets_of_document(shop.write("x.gltf", "{"))[0].fault->what(),
+              HasSubstr("ends too early"));
+  EXPECT_THAT(sets_of_document(shop / "none.gltf")[0].fault->what(), HasSubstr("no such file"));
+  EXPECT_THAT(
+      sets_of_document(shop.write("x.gltf", R"({"asset": {"version": "1.0"}})"))[0].fault->what(),
+      HasSubstr("version is '1.0', expected 2.0"));
   EXPECT_THAT(fault_of_json(shop, R"("materials": [])"), HasSubstr("no material"));
   EXPECT_THAT(fault_of_json(shop, R"("extensionsRequired": ["KHR_new"], "materials": [{}])"),
               AllOf(HasSubstr("extensionsRequired"), HasSubstr("'KHR_new' is required")));
@@ -248,9 +278,9 @@ TEST(Gltf, InABrokenContainerSaysSo) {
   const Workshop shop;
   const std::string whole =
       glb(R"({"asset": {"version": "2.0"}, "materials": [{"name": "m"}]})", "abcd");
-  EXPECT_EQ(sets_of(shop.write("w.glb", whole)).at(0).name, "m");
+  EXPECT_EQ(sets_of_document(shop.write("w.glb", whole)).at(0).name, "m");
   for (size_t size = 12; size < whole.size() - 12; size += 9) {
-    const auto sets = sets_of(shop.write("c.glb", whole.substr(0, size)));
+    const auto sets = sets_of_document(shop.write("c.glb", whole.substr(0, size)));
     ASSERT_EQ(sets.size(), 1u);
     ASSERT_TRUE(sets[0].fault) << size;
     EXPECT_EQ(sets[0].fault->fault(), Fault::Input);

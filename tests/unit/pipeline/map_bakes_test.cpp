@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 
+#include "kiln/bake/pack_layout.h"
 #include "kiln/math/hash.h"
 #include "kiln/pipeline/run.h"
+#include "support/images.h"
 #include "support/workshop.h"
 
 namespace kiln {
@@ -156,6 +159,77 @@ TEST(Packing, PassesNumbersThroughThatAreTaggedAsColour) {
   expect_equal(plane_of(shop / "out/r/r.png", "Y"), rough.layers[0].plane, 1e-7f);
 }
 
+// The file that a slot was painted in, or its opposite's.
+std::string painted(const std::string& slot) {
+  const std::map<std::string, std::string> names{
+      {"base_color", "BaseColor"}, {"diffuse", "BaseColor"},
+      {"roughness", "Roughness"},  {"gloss", "Roughness"},
+      {"metallic", "Metallic"},    {"ambient_occlusion", "AmbientOcclusion"},
+      {"normal", "NormalGL"},      {"height", "Height"}};
+  const auto found = names.find(slot);
+  return found == names.end() ? "" : "rock/x_" + found->second + ".png";
+}
+
+int code(float value) { return static_cast<int>(std::lround(255 * value)); }
+
+TEST(Packing, ComesBackBitForBitFromALoneFileOfEveryPreset) {
+  const Workshop shop;
+  paint_set(shop);
+  for (const std::string& preset : pack_preset_names()) {
+    const Report packed = run(shop, "bake: pack, preset: " + preset + ", out: " + preset);
+    expect_baked(packed);
+    for (const std::string& file : packed.tasks[0].outputs) {
+      const Report apart =
+          run(shop, "bake: unpack, out: apart/" + preset + "_" + fs::path(file).stem().string(),
+              "out/" + file + ", packed: " + preset);
+      expect_baked(apart);
+      for (const std::string& output : apart.tasks[0].outputs) {
+        const std::string slot = fs::path(output).stem().string(), source = painted(slot);
+        if (source.empty()) continue;
+        const Layers back = read_image(shop / ("out/" + output)).image;
+        const Layers stored = read_image(shop / source).image;
+        ASSERT_EQ(back.layers.size(), stored.layers.size()) << output;
+        for (size_t c = 0; c < back.layers.size(); ++c) {
+          const bool turned = slot == "gloss" || (slot == "normal" && preset == "unreal" && c == 1);
+          for (int x = 0; x < set_size.width; ++x) {
+            const int was = code(stored.layers[c].plane.at(x, 71));
+            ASSERT_EQ(code(back.layers[c].plane.at(x, 71)), turned ? 255 - was : was) << output;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Packing, OfALoneFileTakesTheLayoutOfItsNameOrTheOnlyOne) {
+  const Workshop shop;
+  paint_set(shop);
+  expect_baked(run(shop, "bake: pack, layout: \"m = metallic, 1 - height, 0.5\", out: m"));
+  const Report named = run(shop, "bake: unpack, out: a",
+                           "out/m/m.png, packed: \"other = roughness; m = metallic, 1 - height\"");
+  expect_baked(named);
+  EXPECT_THAT(named.tasks[0].outputs, UnorderedElementsAre("a/metallic.png", "a/height.png"));
+  expect_equal(plane_of(shop / "out/a/height.png", "Y"), plane_of(shop / "rock/x_Height.png", "Y"));
+  const Report only = run(shop, "bake: unpack, out: b", "out/m/m.png, packed: \"x = opacity\"");
+  expect_baked(only);
+  EXPECT_THAT(only.tasks[0].outputs, UnorderedElementsAre("b/opacity.png"));
+}
+
+TEST(Packing, OfALoneFileSaysWhatItDoesNotUnderstand) {
+  const Workshop shop;
+  paint_set(shop);
+  const auto refusal = [&](const std::string& packed) {
+    return test::message_of([&] { run(shop, "bake: unpack, out: a", packed); });
+  };
+  const std::string image = "rock/x_Roughness.png, packed: ";
+  EXPECT_THAT(refusal(image + "unrel"), HasSubstr("did you mean 'unreal'"));
+  EXPECT_THAT(refusal(image + "unreal"), HasSubstr("ends in no file of the layout: BC, ORM, N, E"));
+  EXPECT_THAT(refusal(image + "\"a = base_color.b\""), HasSubstr("expected 'rgb'"));
+  EXPECT_THAT(refusal(image + "\"a = metallic, metallic\""), HasSubstr("metallic twice"));
+  EXPECT_THAT(refusal(image + "\"a = 0.5\""), HasSubstr("holds no map"));
+  EXPECT_THAT(refusal("rock, packed: unreal"), HasSubstr("is no image"));
+}
+
 TEST(Packing, RefusesOneNameForSeveralFiles) {
   const Workshop shop;
   paint_set(shop);
@@ -258,6 +332,96 @@ TEST(Converting, GoesToSpecularGlossinessAndBackToTheSameSurface) {
     }
   }
   EXPECT_LT(std::sqrt(apart / count), 0.02);
+}
+
+// Runs a bake on the set of a material file.
+void run_material(const Workshop& shop, const fs::path& file, const std::string& bake) {
+  MaterialFile material = read_material_file(file);
+  Pipeline pipeline = read_pipeline(
+      shop.write("m.yaml", "version: 1\nsets: [{ path: . }]\nbakes: [{ " + bake + " }]\n"));
+  pipeline.sets = {material.set};
+  pipeline.material = material.material;
+  expect_baked(run_plan(make_plan(pipeline, shop / "out"), Records::None));
+}
+
+double difference_of(const fs::path& a, const fs::path& b) {
+  return test::greatest_difference(read_image(a).image, read_image(b).image);
+}
+
+// Half a code of sRGB is 0.0045 near white, and half a code of roughness 0.004 of alpha; half a
+// code of metalness moves by less.
+constexpr double within_codes = 0.0065;
+
+void expect_same_surface(const fs::path& a, const fs::path& b, const std::string& which) {
+  for (const char* name : {"f0.exr", "diffuse_albedo.exr", "alpha.exr"}) {
+    EXPECT_LT(difference_of(a / name, b / name), within_codes) << which << " " << name;
+  }
+}
+
+TEST(Converting, WritesAMaterialFileThatReadsItBack) {
+  const Workshop shop;
+  paint_set(shop);
+  fs::rename(shop / "rock/x_NormalGL.png", shop / "rock/x_NormalDX.png");
+  const std::string derive = "bake: derive, quantities: \"f0,diffuse_albedo,alpha\", type: float";
+  const std::string normal = "bake: normal, to: gl, type: uint16";
+  expect_baked(run(shop, derive + ", out: given"));
+  expect_baked(run(shop, normal + ", out: given/n.png"));
+  // What one metalness cannot hold is lost before anything is stored: the same in floats is the
+  // measure.
+  expect_baked(run(shop, "bake: convert, format: exr, type: float, out: floats"));
+  run_material(shop, shop / "out/floats/material.yaml", derive + ", out: of_floats");
+  for (const std::string way : {"spec-gloss", "albedo-specular-roughness",
+                                "metal-rough, method: lossless", "metal-rough"}) {
+    const std::string to = "to_" + std::to_string(way.size());
+    const Report report = run(shop, "bake: convert, to: " + way + ", out: " + to);
+    expect_baked(report);
+    EXPECT_THAT(report.tasks[0].outputs, Contains(to + "/material.yaml"));
+    const fs::path material = shop / ("out/" + to + "/material.yaml");
+    run_material(shop, material, derive + ", out: back_" + to);
+    run_material(shop, material, normal + ", out: " + to + "_n.png");
+    expect_same_surface(shop / (way == "metal-rough" ? "out/of_floats" : "out/given"),
+                        shop / ("out/back_" + to), way);
+    EXPECT_EQ(difference_of(shop / "out/given/n.png", shop / ("out/" + to + "_n.png")), 0);
+  }
+}
+
+TEST(Converting, NamesItsMaterialFileLikeItsMapsAndPassesOthersThrough) {
+  const Workshop shop;
+  paint_set(shop);
+  const std::string set = "rock, normal_zero: 127, wrap: clamp";
+  const Report report =
+      run(shop, "bake: convert, to: spec-gloss, out: \"T_{set}_{suffix}.png\"", set);
+  expect_baked(report);
+  EXPECT_THAT(report.tasks[0].outputs, Contains("T_rock_material.yaml"));
+  const std::string text = text_of(shop / "out/T_rock_material.yaml");
+  EXPECT_THAT(text, HasSubstr("workflow: spec-gloss\nnormal_zero: 127\nwrap: clamp\n"));
+  EXPECT_THAT(text, HasSubstr("diffuse: { path: \"T_rock_diffuse.png\", color_space: "
+                              "\"srgb_rec709_scene\" }"));
+  EXPECT_THAT(text, HasSubstr("gloss: { path: \"T_rock_gloss.png\" }"));
+  EXPECT_THAT(text, HasSubstr("normal: { path: \"../rock/x_NormalGL.png\", channel: rgb, "
+                              "convention: gl }"));
+  EXPECT_THAT(text, HasSubstr("height: { path: \"../rock/x_Height.png\", channel: r }"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("metallic")));
+}
+
+TEST(Converting, KeepsAnisotropyAsItsLobeHasIt) {
+  const Workshop shop;
+  const std::string maps =
+      "version: 1\nsets: [{ name: rock, workflow: metal-rough, maps: { roughness: r.png, metallic: "
+      "{ value: 1 }, anisotropy: { path: a.png, encoding: gltf }, anisotropy_angle: { value: 0.1 } "
+      "} }]\nbakes:\n  - { bake: convert, to: spec-gloss, type: float, format: exr, out: sg }\n"
+      "  - { bake: derive, quantities: directional_albedo, angles: 60, type: float, out: given }\n";
+  paint(shop, "r.png", hashed_map({"Y"}, 1, 256));
+  paint(shop, "a.png", hashed_map({"Y"}, 2, 256));
+  expect_baked(
+      run_plan(make_plan(read_pipeline(shop.write("p.yaml", maps)), shop / "out"), Records::None));
+  EXPECT_THAT(text_of(shop / "out/sg/material.yaml"),
+              HasSubstr("anisotropy: { path: \"anisotropy.exr\", encoding: burley }"));
+  run_material(shop, shop / "out/sg/material.yaml",
+               "bake: derive, quantities: directional_albedo, angles: 60, type: float, out: back");
+  EXPECT_LT(difference_of(shop / "out/given/directional_albedo_60.exr",
+                          shop / "out/back/directional_albedo_60.exr"),
+            1e-5);
 }
 
 TEST(Normals, TurnBitForBitAndBack) {

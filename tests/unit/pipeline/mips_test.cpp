@@ -4,6 +4,7 @@
 #include "kiln/io/texture_file.h"
 #include "kiln/math/hash.h"
 #include "kiln/pipeline/run.h"
+#include "support/images.h"
 #include "support/workshop.h"
 
 namespace kiln {
@@ -11,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using test::greatest_difference;
 using test::text_of;
 using test::Workshop;
 using testing::ElementsAre;
@@ -57,19 +59,6 @@ std::string failure_of(const Report& report) {
 }
 
 Layers image_of(const fs::path& path) { return read_image(path).image; }
-
-double greatest_difference(const Layers& a, const Layers& b) {
-  double worst = 0;
-  for (size_t c = 0; c < a.layers.size(); ++c) {
-    for (int y = 0; y < a.size.height; ++y) {
-      for (int x = 0; x < a.size.width; ++x) {
-        worst = std::max<double>(worst,
-                                 std::abs(a.layers[c].plane.at(x, y) - b.layers[c].plane.at(x, y)));
-      }
-    }
-  }
-  return worst;
-}
 
 TEST(MipFiles, OfOneMapAreTheOneFileThatIsNamed) {
   const Workshop shop;

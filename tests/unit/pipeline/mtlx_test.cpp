@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "kiln/pipeline/plan.h"
-#include "support/workshop.h"
+#include "support/planned_sets.h"
 
 namespace kiln {
 namespace {
 
+using test::map_of;
 using test::Workshop;
 using testing::AllOf;
 using testing::ElementsAre;
@@ -14,24 +14,12 @@ using testing::HasSubstr;
 
 std::vector<PlannedSet> sets_of(const Workshop& shop, const std::string& body,
                                 const std::string& root = "version=\"1.38\"") {
-  shop.write("a.mtlx",
-             "<?xml version=\"1.0\"?>\n<materialx " + root + ">\n" + body + "</materialx>\n");
-  return planned_sets(
-      read_pipeline(shop.write("p.yaml", "version: 1\nsets: [{ path: a.mtlx }]\nbakes: []\n")));
+  return test::sets_of_document(shop.write(
+      "a.mtlx", "<?xml version=\"1.0\"?>\n<materialx " + root + ">\n" + body + "</materialx>\n"));
 }
 
 std::string fault_of(const Workshop& shop, const std::string& body) {
-  const std::vector<PlannedSet> sets = sets_of(shop, body);
-  if (sets.size() != 1 || !sets[0].fault) return "no fault";
-  EXPECT_EQ(sets[0].fault->fault(), Fault::Input);
-  return sets[0].fault->what();
-}
-
-const PlannedMap& map_of(const PlannedSet& set, Slot slot) {
-  for (const PlannedMap& map : set.maps) {
-    if (map.slot == slot) return map;
-  }
-  throw std::runtime_error("no map for " + std::string(slot_name(slot)));
+  return test::input_fault_of(sets_of(shop, body));
 }
 
 const char* const graph = R"(

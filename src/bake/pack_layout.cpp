@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pack_presets.h"
+#include "kiln/bake/pack_layout.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,12 @@ PackSource map_source(const std::string& text, bool inverted) {
   PackSource source;
   source.text = fmt::format("{}{}", inverted ? "1 - " : "", text);
   source.inverted = inverted;
-  source.slot = parse_slot(text.substr(0, dot));
+  std::string name = snake(text.substr(0, dot));
+  if (name == "normal_gl" || name == "normal_dx") {
+    if (name == "normal_dx") source.convention = NormalConvention::DirectX;
+    name = "normal";
+  }
+  source.slot = parse_slot(name);
   if (source.slot == Slot::Gloss) {
     source.slot = Slot::Roughness;
     source.inverted = !inverted;
@@ -103,6 +108,15 @@ std::vector<PackedFile> parse_layout(const std::string& text) {
   return files;
 }
 
+std::string sources_text(const PackedFile& file) {
+  std::string text;
+  for (const PackSource& source : file.channels) {
+    const bool is_told = source.channel > 0 && source.text.find('.') == std::string::npos;
+    if (!is_told) text += (text.empty() ? "" : ", ") + source.text;
+  }
+  return text;
+}
+
 // THE list of presets.
 const std::vector<PackPreset>& all_pack_presets() {
   static const std::vector<PackPreset> presets = {
@@ -110,8 +124,8 @@ const std::vector<PackPreset>& all_pack_presets() {
        "baseColor = base_color; metallicRoughness = ambient_occlusion, roughness, metallic; "
        "normal = normal; emissive = emissive"},
       {"unreal", "Unreal Engine: ORM, normals point down (DirectX)",
-       "BC = base_color; ORM = ambient_occlusion, roughness, metallic; N = normal; E = emissive",
-       NormalConvention::DirectX},
+       "BC = base_color; ORM = ambient_occlusion, roughness, metallic; N = normal_dx; "
+       "E = emissive"},
       {"godot", "Godot's ORMMaterial3D",
        "albedo = base_color; orm = ambient_occlusion, roughness, metallic; normal = normal; "
        "emission = emissive"},
@@ -141,6 +155,17 @@ const PackPreset& find_pack_preset(const std::string& name) {
     if (preset.name == kebab(name)) return preset;
   }
   throw Error(Fault::Usage, unknown_name("preset", name, pack_preset_names()));
+}
+
+std::vector<NamedText> list_pack_presets() {
+  std::vector<NamedText> list;
+  for (const PackPreset& preset : all_pack_presets()) {
+    NamedText& text = list.emplace_back(NamedText{preset.name, preset.summary, {}});
+    for (const PackedFile& file : parse_layout(preset.layout)) {
+      text.facts.emplace_back(file.suffix, sources_text(file));
+    }
+  }
+  return list;
 }
 
 }  // namespace kiln

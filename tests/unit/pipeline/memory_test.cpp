@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a dry run says of memory. That it bounds what is used is measured, not tested.
+#include <gtest/gtest.h>
+
+#include "kiln/pipeline/plan.h"
+#include "support/workshop.h"
+
+namespace kiln {
+namespace {
+
+using test::Workshop;
+
+long long predicted(const Workshop& shop, const std::string& maps, const std::string& bake) {
+  const std::string text = "version: 1\nsets: [{ name: s, maps: { " + maps + " } }]\nbakes: [{ " +
+                           bake + ", out: o }]\n";
+  const Plan plan = make_plan(read_pipeline(shop.write("p.yaml", text)), shop / "out");
+  return predicted_memory(plan, plan.tasks.at(0)).value_or(-1);
+}
+
+constexpr Size size{512, 1024};
+constexpr long long plane = 4LL * size.width * size.height;
+
+TEST(PredictedMemory, CountsThePlanesOfAnisotropy) {
+  const Workshop shop;
+  shop.paint("a.png", 0.5f, PixelType::Uint8, size);
+  const std::string derive = "bake: derive, quantities: f0";
+  const long long isotropic = predicted(shop, "roughness: a.png", derive);
+  const long long anisotropic =
+      predicted(shop, "roughness: a.png, anisotropy: { value: 0.5 }", derive);
+  // Three of each plane in each of the six bands of 64 rows on their way.
+  EXPECT_EQ(anisotropic - isotropic, 3LL * 6 * 64 * 4 * size.width);
+}
+
+TEST(PredictedMemory, CountsMapsThatAreHeldWhole) {
+  const Workshop shop;
+  shop.paint("a.png", 0.5f, PixelType::Uint8, size);
+  const std::string maps = "base_color: a.png, normal: a.png, height: a.png, opacity: a.png";
+  const auto more = [&](const std::string& bake, const std::string& held) {
+    return predicted(shop, maps, bake + held) - predicted(shop, maps, bake);
+  };
+  EXPECT_EQ(more("bake: mips", ", alpha_test: 0.5"), plane * 5 / 4);
+  EXPECT_EQ(more("bake: normal", ", from: height"), plane);
+  EXPECT_GE(predicted(shop, maps, "bake: occlusion") - predicted(shop, maps, "bake: normal"),
+            2 * plane);
+}
+
+TEST(PredictedMemory, CountsFilesThatAreNotReadRowByRow) {
+  const Workshop shop;
+  shop.paint("a.png", 0.5f, PixelType::Uint8, size);
+  shop.paint("a.hdr", 0.5f, PixelType::Float, size);
+  const std::string unpack = "bake: unpack";
+  EXPECT_EQ(predicted(shop, "base_color: a.hdr", unpack),
+            predicted(shop, "base_color: a.png", unpack) + 3 * plane);
+}
+
+}  // namespace
+}  // namespace kiln
