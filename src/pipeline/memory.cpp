@@ -8,6 +8,7 @@
 
 #include "kiln/io/image_file.h"
 #include "kiln/parallel/threads.h"
+#include "outputs.h"
 #include "set_reader.h"
 
 namespace kiln {
@@ -16,6 +17,7 @@ namespace {
 constexpr long long mebibyte = 1LL << 20;
 constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
 constexpr int resolved_planes = 11;
+constexpr long long most_of_plane = mebibyte / 4;
 constexpr int rows_of_block = 64;  // that decoders give at once
 
 // "1.5 GiB", "300 MiB"
@@ -53,14 +55,16 @@ long long bytes_of(const RowCost& cost, const BandPlan& bands) {
   const long long decoding = 5LL * cost.width * cost.channels * rows_of_block;
   const long long planes = 1LL * cost.planes * bands.at_once +
                            1LL * cost.working * std::min(bands.at_once, available_threads());
-  return process_bytes + decoding + 4LL * cost.width * bands.rows * planes;
+  return process_bytes + decoding + 4LL * cost.width * bands.rows * planes + cost.held;
 }
 
 BandPlan plan_bands(const RowCost& cost, long long budget) {
   BandPlan bands;
+  // Planes of bands that are larger than the caches near a core are slower, and no better.
+  while (bands.rows > band_unit && 4 * cost.width * bands.rows > most_of_plane) bands.rows /= 2;
   if (budget <= 0) return bands;
   while (bands.at_once > 2 && bytes_of(cost, bands) > budget) --bands.at_once;
-  while (bands.rows > 16 && bytes_of(cost, bands) > budget) bands.rows /= 2;
+  while (bands.rows > band_unit && bytes_of(cost, bands) > budget) bands.rows /= 2;
   bands.at_once = bytes_of(cost, bands) > budget ? 1 : bands.at_once;
   return bands;
 }
@@ -109,7 +113,7 @@ std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
   const PlannedSet& set = plan.sets[*task.set];
   if (task.needs.maps.any()) {
     const SetShape shape = shape_of(set, task.needs.maps);
-    const RowCost cost = row_cost(shape.size, shape.channels, task.needs.maps.resolved);
+    const RowCost cost = cost_of_rows(task, shape.size, shape.channels);
     return bytes_of(cost, plan_bands(cost, plan.max_memory));
   }
   if (!task.needs.material) return std::nullopt;
@@ -121,10 +125,12 @@ std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
   return bytes_of_material(shape.size, halvings, bands) + 4LL * 7 * area(picture);
 }
 
-RowCost row_cost(Size set, int channels_read, bool resolved) {
+RowCost cost_of_rows(const Task& task, Size set, int channels_read) {
   // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
+  const bool resolved = task.needs.maps.resolved;
   const int planes = resolved ? 2 * channels_read + 3 * resolved_planes : 3 * channels_read;
-  return {set.width, planes, 0, channels_read};
+  const bool keeps = task.needs.late_view && is_for_viewing(task.out);
+  return {set.width, planes, 0, channels_read, keeps ? 4 * area(set) : 0};
 }
 
 }  // namespace kiln

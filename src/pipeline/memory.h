@@ -7,7 +7,7 @@ namespace kiln {
 
 /// How a set is read: rows of a band, and how many bands are on their way at once.
 struct BandPlan {
-  int rows = 64;
+  int rows = 64;  ///< a multiple of band_unit
   int at_once = 6;
 };
 
@@ -17,10 +17,12 @@ struct RowCost {
   int planes = 0;       ///< float planes of every band on its way
   int working = 0;      ///< and of those that are being computed
   int channels = 0;     ///< of the files, which are decoded in blocks of rows of their own
+  long long held = 0;   ///< beside the bands, until the last is made [byte]
 };
 
+/// Of a task that reads maps band by band.
 /// @param channels_read  of all files together
-RowCost row_cost(Size set, int channels_read, bool resolved);
+RowCost cost_of_rows(const Task& task, Size set, int channels_read);
 
 /// Bands that fit into the budget beside what the process needs anyway, or else the narrowest; the
 /// default without a budget.

@@ -116,6 +116,7 @@ void open_images(const fs::path& folder, const Task& task, const MipSheet& sheet
   file.type = held_type(task, map.preferred_type, format.types);
   file.color_to = color_of(map, file.type, format.name);
   WriteOptions options;
+  options.run = for_rows;
   options.type = file.type;
   options.color_tag = tag_of(file);
   options.attributes = attributes_of(map, file);
@@ -174,8 +175,8 @@ struct Band {
 Written write_mips(const Plan& plan, const Task& task, const MipSheet& sheet, SetReader& reader,
                    const ColorConfig& config, const std::function<void()>& heed) {
   const Size set = reader.bands().size;
-  const BandPlan bands = require_bands(
-      row_cost(set, reader.channels_read(), task.needs.maps.resolved), plan.max_memory);
+  const BandPlan bands =
+      require_bands(cost_of_rows(task, set, reader.channels_read()), plan.max_memory);
   std::vector<File> files = open_files(plan, task, sheet);
   const auto write = [&](Band& band) {
     std::vector<MipRows> made = sheet.filter(band.rows.get());
