@@ -10,7 +10,6 @@
 #include "color_reading.h"
 #include "kiln/material/slot_values.h"
 #include "kiln/parallel/rows.h"
-#include "map_colors.h"
 
 namespace kiln {
 namespace {
@@ -131,6 +130,10 @@ void SetReader::open(const std::vector<PlannedMap>& maps) {
     added.letters = slot_channels(facts.channels, map.slot, map.channels);
     added.names = picked_names(facts.channels, added.letters);
     const std::string color = decide_color(map, facts, added.from);
+    const bool is_color = !added.from.empty() && added.letters.size() != 2;
+    if (is_color && facts.type == PixelType::Uint8) {
+      added.codes = codes_to_working(added.from, map, config_, color_.working);
+    }
     const std::string name = map.path.filename().string();
     bands_.given.push_back({map.slot, name, false, facts.size, static_cast<int>(added.names.size()),
                             std::string(pixel_type_name(facts.type)), added.from});
@@ -340,7 +343,11 @@ SlotMaps SetReader::stored(const MapRows& rows) const {
 
 Layers SetReader::working_colors(const Map& map, const MapRows& rows) const {
   Layers colors = as_rgb(picked(map, rows));
-  colors_to_working(colors, map.from, map.planned, config_, color_.working);
+  if (map.codes) {
+    look_up(*map.codes, colors);
+  } else {
+    colors_to_working(colors, map.from, map.planned, config_, color_.working);
+  }
   return colors;
 }
 
