@@ -44,13 +44,22 @@ derive_by_oiiotool() {
     -i:now=1 "$(map_of Roughness)" --ch 0 -d half --compression zip -o "$work/alpha.exr"
 }
 
+# The same of a split-sum preview: R G B A in half, its colours those of the normal map, which take
+# as long to pack as those of a lit picture, or less.
+preview_by_oiiotool() {
+  oiiotool -i:now=1 "$(map_of AO)" -i:now=1 "$(map_of Metallic)" -i:now=1 "$(map_of Roughness)" \
+    -i:now=1 "$(map_of Color)" -i:now=1 "$(map_of Normal)" --ch R,G,B,A=1.0 \
+    -d half --compression zip -o "$work/preview.exr"
+}
+
+# compare NAME COMMAND...: NAME_by_oiiotool does the same.
 compare() {
   local name=$1 i
   shift
   : > "$work/ours"
   : > "$work/theirs"
   for ((i = 0; i < runs; i++)); do
-    timed "$kiln" bake "$name" "$work/maps" -o "$work/made/$name" "$@" >> "$work/ours"
+    timed "$@" >> "$work/ours"
     timed "${name}_by_oiiotool" >> "$work/theirs"
   done
   awk -v n="$name" -v a="$(median "$work/theirs")" -v b="$(median "$work/ours")" 'BEGIN {
@@ -64,5 +73,8 @@ for map in "$set"/*.png "$set"/*.jpg; do
     -o "$work/maps/$(basename "${map%.*}").png"
 done
 echo "kiln's time over that of oiiotool; medians of $runs"
-compare pack --preset unreal
-compare derive --quantities f0,diffuse_albedo,alpha
+compare pack "$kiln" bake pack "$work/maps" -o "$work/made/pack" --preset unreal
+compare derive "$kiln" bake derive "$work/maps" -o "$work/made/derive" \
+  --quantities f0,diffuse_albedo,alpha
+compare preview "$kiln" preview "$work/maps" --env textures/env/studio.exr --mode split-sum \
+  -o "$work/made/preview.exr"

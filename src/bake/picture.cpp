@@ -63,15 +63,36 @@ void put(std::array<std::array<float, lane_count<F>>, 3>& to, int lane, const Ve
   to[2][lane] = static_cast<float>(v.z);
 }
 
+std::vector<Svbrdf> levels_of(Svbrdf maps, bool exact) {
+  std::vector<Svbrdf> levels;
+  if (exact) {
+    levels.push_back(std::move(maps));
+  } else {
+    levels = mip_chain(std::move(maps));
+  }
+  return levels;
+}
+
+Vec3<float> narrowed(const Vec3<double>& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+template <class F>
+Vec3<F> widened(const Vec3<float>& v) {
+  return {F(v.x), F(v.y), F(v.z)};
+}
+
 }  // namespace
 
-Picture::Picture(const Svbrdf& maps, const Options& options)
+Picture::Picture(Svbrdf maps, const Options& options)
     : options_(options),
       exact_(!options.ball && options.size == maps.size),
-      levels_(exact_ ? std::vector<Svbrdf>{maps} : mip_chain(maps)),
+      levels_(levels_of(std::move(maps), exact_)),
       cos_rotate_(std::cos(options.rotate_deg * pi / 180)),
       sin_rotate_(std::sin(options.rotate_deg * pi / 180)) {
   for (Svbrdf& level : levels_) turn_into_vectors(level);
+  const auto turned = [&](const Vec3<double>& w) { return narrowed(to_environment(w)); };
+  plane_ = {{turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})}, turned(options.to_viewer)};
 }
 
 // Turning the environment one way is turning everything else the other way.
@@ -143,10 +164,37 @@ void Picture::read(const Spot& spot, const PlaneRange& planes, float* values) co
   if (blend > 0) add_bilinear(levels_[fine + 1], spot.u, spot.v, blend, planes, values);
 }
 
+// Lanes beyond the last texel repeat it.
+template <class F>
+void Picture::fill_texels(int x, int y, TexelBlock<F>& texels) const {
+  constexpr int lanes = lane_count<F>;
+  const auto planes = planes_of(levels_.front());
+  const int inside = std::min(lanes, options_.size.width - x);
+  for (size_t p = 0; p < planes.size(); ++p) {
+    if (planes[p]->empty()) {
+      texels[p].fill(0.0f);
+      continue;
+    }
+    const float* row = planes[p]->row(y) + x;
+    if (inside == lanes) {
+      std::copy_n(row, lanes, texels[p].begin());
+    } else {
+      for (int lane = 0; lane < lanes; ++lane) texels[p][lane] = row[std::min(lane, inside - 1)];
+    }
+  }
+}
+
 template <class F>
 void Picture::fill(int x, int y, int position, TexelBlock<F>& texels,
                    Placement<F>& placement) const {
   constexpr int lanes = lane_count<F>;
+  if (exact_) {
+    fill_texels<F>(x, y, texels);
+    placement.frame = {widened<F>(plane_.frame.x), widened<F>(plane_.frame.y),
+                       widened<F>(plane_.frame.z)};
+    placement.to_viewer = widened<F>(plane_.to_viewer);
+    return;
+  }
   std::array<std::array<float, lanes>, 3> along, up, normal;
   const Frame<double> plane{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Svbrdf& maps = levels_.front();
@@ -154,25 +202,16 @@ void Picture::fill(int x, int y, int position, TexelBlock<F>& texels,
                                    static_cast<double>(maps.size.height) / options_.size.height);
   for (int lane = 0; lane < lanes; ++lane) {
     const int column = std::min(x + lane, options_.size.width - 1);
-    Frame<double> frame = plane;
     float values[svbrdf_planes];
-    if (exact_) {
-      const auto planes = planes_of(maps);
-      for (int p = 0; p < svbrdf_planes; ++p) {
-        values[p] = planes[p]->empty() ? 0 : planes[p]->row(y)[column];
-      }
-    } else {
-      const double px = column + position_x[position], py = y + position_y[position];
-      const Spot spot = options_.ball ? spot_of_ball(px, py)
-                                      : Spot{px / options_.size.width, py / options_.size.height,
-                                             std::log2(std::max(minified, 1.0)), plane};
-      frame = spot.frame;
-      read(spot, {}, values);
-    }
+    const double px = column + position_x[position], py = y + position_y[position];
+    const Spot spot = options_.ball ? spot_of_ball(px, py)
+                                    : Spot{px / options_.size.width, py / options_.size.height,
+                                           std::log2(std::max(minified, 1.0)), plane};
+    read(spot, {}, values);
     for (int p = 0; p < svbrdf_planes; ++p) texels[p][lane] = values[p];
-    put<F>(along, lane, to_environment(frame.x));
-    put<F>(up, lane, to_environment(frame.y));
-    put<F>(normal, lane, to_environment(frame.z));
+    put<F>(along, lane, to_environment(spot.frame.x));
+    put<F>(up, lane, to_environment(spot.frame.y));
+    put<F>(normal, lane, to_environment(spot.frame.z));
   }
   placement.frame = {load_vector<F>(along), load_vector<F>(up), load_vector<F>(normal)};
   const Vec3<double> viewer =

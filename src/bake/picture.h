@@ -23,8 +23,9 @@ class Picture {
     Size size;                        ///< of the picture [texel]
     Vec3<double> to_viewer{0, 0, 1};  ///< of the plane; unit
     double rotate_deg = 0;            ///< of the environment: positive turns +Z toward +X [degree]
+    int first_row = 0;                ///< of the whole plane, where the maps are a band of its rows
   };
-  Picture(const Svbrdf& maps, const Options& options);
+  Picture(Svbrdf maps, const Options& options);
 
   /// Maps of so many texels each way, or more, make the same picture however often they are halved
   /// before; halved once more they would lack a level that is read.
@@ -32,6 +33,8 @@ class Picture {
 
   Size size() const { return options_.size; }
   bool is_ball() const { return options_.ball; }
+  /// Of the whole picture, which this is a band of.
+  int first_row() const { return options_.first_row; }
 
   /// How many positions inside a pixel are shaded: 1 where picture and map texels coincide.
   int positions() const { return exact_ ? 1 : subpixels; }
@@ -62,6 +65,8 @@ class Picture {
   Spot spot_of_ball(double px, double py) const;
   Spot spot_on_ball(const Vec3<double>& normal) const;
   void read(const Spot& spot, const PlaneRange& planes, float* values) const;
+  template <class F>
+  void fill_texels(int x, int y, TexelBlock<F>& texels) const;
   Vec3<double> from_environment(const Vec3<double>& w) const;
   double radius() const;
 
@@ -69,6 +74,7 @@ class Picture {
   bool exact_;
   std::vector<Svbrdf> levels_;
   double cos_rotate_, sin_rotate_;
+  Placement<float> plane_;  ///< of every texel of a plane
 };
 
 }  // namespace kiln

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "bakes.h"
@@ -58,11 +59,15 @@ Picture make_picture(const Settings& settings, const Svbrdf& maps) {
                  {ball, picture_size(settings, maps.size), viewer_of(settings), settings.rotate});
 }
 
+// A pixel a texel: each row of the picture needs that row of the maps alone.
+bool is_made_in_bands(const Settings& settings) {
+  return settings.shape == PreviewBake::Shape::Flat && settings.size.width <= 0;
+}
+
 // How much of large maps the picture reads; nothing where it reads all.
 Size texels_read(const Settings& settings) {
   const bool ball = settings.shape == PreviewBake::Shape::Sphere;
   if (settings.shape == PreviewBake::Shape::Contact) return {};
-  if (!ball && settings.size.width <= 0) return {};
   constexpr int any_large = 1 << 20;
   return Picture::texels_read(ball, picture_size(settings, {any_large, any_large}));
 }
@@ -80,10 +85,10 @@ std::vector<std::pair<std::string, std::string>> describe_file(const Settings& s
 }
 
 // What the chosen models make of the picture that the user may not expect.
-void add_model_notes(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+void add_model_notes(const Settings& settings, bool anisotropic, const ShadingInputs& inputs,
                      Baked& baked) {
   const SurfaceChoice& surface = inputs.surface;
-  if (!maps.anisotropy.empty() && (is_glass(inputs) || !make_stages(surface).anisotropic)) {
+  if (anisotropic && (is_glass(inputs) || !make_stages(surface).anisotropic)) {
     baked.notes.push_back(fmt::format("anisotropy is not read: {} has one width",
                                       is_glass(inputs) ? "glass" : surface.distribution));
   }
@@ -106,23 +111,31 @@ void add_model_notes(const Settings& settings, const Svbrdf& maps, const Shading
   }
 }
 
-void add_figures(const Settings& settings, const ShadingInputs& inputs, const Rendered& rendered,
-                 Baked& baked) {
-  baked.figures.emplace_back("samples", rendered.mean_samples);
-  if (settings.target_error > 0) {
-    baked.figures.emplace_back("most samples", rendered.most_samples);
+Told told_of(const Settings& settings, const ShadingInputs& inputs, const PictureFacts& picture) {
+  Told told;
+  if (settings.mode == PreviewBake::Mode::SplitSum) return told;
+  auto& figures = told.figures;
+  if (settings.mode == PreviewBake::Mode::Difference &&
+      settings.shape != PreviewBake::Shape::Contact) {
+    figures = {{"mean radiance", picture.mean_radiance},
+               {"mean difference", picture.mean_difference},
+               {"rms difference", picture.rms_difference},
+               {"greatest difference", picture.greatest_difference}};
   }
-  baked.figures.emplace_back("mean standard error", rendered.mean_error);
+  figures.emplace_back("samples", picture.mean_samples);
+  if (settings.target_error > 0) figures.emplace_back("most samples", picture.most_samples);
+  figures.emplace_back("mean standard error", picture.mean_error);
   if (is_glass(inputs)) {
-    baked.figures.emplace_back("energy lost", rendered.lost);
-    baked.figures.emplace_back("light ended inside", rendered.trapped);
+    figures.emplace_back("energy lost", picture.lost);
+    figures.emplace_back("light ended inside", picture.trapped);
   }
-  if (rendered.above_target > 0) {
-    baked.notes.push_back(
+  if (picture.above_target > 0) {
+    told.notes.push_back(
         fmt::format("{:.3g} % of the pixels lie in blocks whose mean standard error is above {} "
                     "after {} samples",
-                    100 * rendered.above_target, settings.target_error, rendered.most_samples));
+                    100 * picture.above_target, settings.target_error, picture.most_samples));
   }
+  return told;
 }
 
 void bake_contact(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
@@ -138,13 +151,50 @@ void bake_contact(const Settings& settings, const Svbrdf& maps, const ShadingInp
 }
 
 void bake_picture(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
-                  Baked& baked, Rendered& whole) {
+                  Artifact& made, Rendered& whole) {
   whole = render_preview(make_picture(settings, maps), inputs, settings);
-  if (settings.mode != PreviewBake::Mode::Difference) return;
-  baked.artifacts.front().view = difference_view(whole.image);
-  for (auto& figure : difference_figures(whole.image, whole.mean_radiance)) {
-    baked.figures.push_back(std::move(figure));
+  if (settings.mode == PreviewBake::Mode::Difference) made.view = difference_view(whole.image);
+}
+
+void bake_whole(const Settings& settings, const Svbrdf& maps, const ShadingInputs& inputs,
+                Baked& baked) {
+  add_model_notes(settings, !maps.anisotropy.empty(), inputs, baked);
+  Artifact& made = baked.artifacts.emplace_back();
+  made.attributes = describe_file(settings, inputs);
+  Rendered whole;
+  if (settings.shape == PreviewBake::Shape::Contact) {
+    bake_contact(settings, maps, inputs, made, whole);
+  } else {
+    bake_picture(settings, maps, inputs, made, whole);
   }
+  made.image = std::move(whole.image);
+  const Told told = told_of(settings, inputs, whole.facts);
+  baked.figures = told.figures;
+  baked.notes.insert(baked.notes.end(), told.notes.begin(), told.notes.end());
+}
+
+void bake_bands(const Settings& settings, const MapBands& maps, const ShadingInputs& inputs,
+                Baked& baked) {
+  add_model_notes(settings, maps.find(Slot::Anisotropy) != nullptr, inputs, baked);
+  MapSheet& sheet = baked.sheet.emplace();
+  Artifact& file = sheet.files.emplace_back();
+  file.image = make_layers({}, rendered_planes(settings));
+  file.attributes = describe_file(settings, inputs);
+  const auto sums = std::make_shared<PictureSums>(maps.size, settings.target_error);
+  sheet.make = [&maps, settings, inputs, sums](const MapRows& rows) {
+    const Size size{maps.size.width, rows.rows.count};
+    const Picture band(maps.svbrdf(rows), {.size = size,
+                                           .to_viewer = viewer_of(settings),
+                                           .rotate_deg = settings.rotate,
+                                           .first_row = rows.rows.first});
+    std::vector<Layers> made;
+    made.push_back(render_band(band, inputs, settings, *sums));
+    return made;
+  };
+  if (settings.mode == PreviewBake::Mode::Difference) {
+    sheet.view = LateView{difference_luminance, difference_bands};
+  }
+  sheet.told = [settings, inputs, sums] { return told_of(settings, inputs, sums->facts()); };
 }
 
 }  // namespace
@@ -171,13 +221,19 @@ Params<Settings> PreviewBake::params() {
 }
 
 Needs PreviewBake::needs(const Settings& settings) {
-  return {.material = true,
-          .material_for = texels_read(settings),
-          .light = true,
-          .sampled = settings.mode != Mode::SplitSum,
-          .prefiltered = settings.mode != Mode::Reference,
-          .albedo = true,
-          .own_lights = !settings.lights.empty()};
+  Needs needs{.light = true,
+              .sampled = settings.mode != Mode::SplitSum,
+              .prefiltered = settings.mode != Mode::Reference,
+              .albedo = true,
+              .own_lights = !settings.lights.empty()};
+  if (is_made_in_bands(settings)) {
+    needs.maps.resolved = true;
+    needs.late_view = settings.mode == Mode::Difference;
+  } else {
+    needs.material = true;
+    needs.material_for = texels_read(settings);
+  }
+  return needs;
 }
 
 void PreviewBake::check(const Settings& settings, const SurfaceChoice& surface) {
@@ -202,17 +258,11 @@ Baked PreviewBake::bake(const Settings& settings, const Ingredients& ingredients
     throw Error(Fault::Usage, "nothing to light it with: expected an environment, lights or both");
   }
   Baked baked;
-  add_model_notes(settings, *ingredients.material, inputs, baked);
-  Artifact& made = baked.artifacts.emplace_back();
-  made.attributes = describe_file(settings, inputs);
-  Rendered whole;
-  if (settings.shape == Shape::Contact) {
-    bake_contact(settings, *ingredients.material, inputs, made, whole);
+  if (ingredients.material != nullptr) {
+    bake_whole(settings, *ingredients.material, inputs, baked);
   } else {
-    bake_picture(settings, *ingredients.material, inputs, baked, whole);
+    bake_bands(settings, *ingredients.maps, inputs, baked);
   }
-  made.image = std::move(whole.image);
-  if (settings.mode != Mode::SplitSum) add_figures(settings, inputs, whole, baked);
   return baked;
 }
 

@@ -28,14 +28,13 @@ PixelBlock::Errors PixelBlock::errors(const Layers& image) const {
   return found;
 }
 
-double share_above(const Layers& image, double error) {
-  double above = 0, shown = 0;
+double pixels_above(const Layers& image, double error) {
+  double above = 0;
   for (int i = 0; i < block_count(image.size); ++i) {
     const PixelBlock::Errors found = PixelBlock(image.size, i).errors(image);
-    shown += found.shown;
     if (found.mean() > error) above += found.shown;
   }
-  return shown > 0 ? above / shown : 0;
+  return above;
 }
 
 void PixelBlock::fill(Plane& plane, float value) const {

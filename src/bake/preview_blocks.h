@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kiln/bake/bake.h"
 #include "kiln/integrate/sobol.h"
 #include "kiln/parallel/rows.h"
 #include "preview_pixels.h"
@@ -15,6 +16,7 @@ namespace kiln {
 // picture is the same for any number of threads.
 
 inline constexpr int block_edge = 16;
+static_assert(band_unit % block_edge == 0, "blocks lie within bands");
 
 /// Points [first, last) of the set.
 struct PointRange {
@@ -70,8 +72,8 @@ class PixelBlock {
 
 int block_count(Size picture);
 
-/// Share of the pixels shown that lie in blocks of a greater mean error than this.
-double share_above(const Layers& image, double error);
+/// How many of the pixels shown lie in blocks of a greater mean error than this.
+double pixels_above(const Layers& image, double error);
 
 /// The image whose planes are filled: R G B A, three of standard errors, points of each repetition.
 Layers make_sampled_image(const Picture& picture);

@@ -161,7 +161,7 @@ void place_maps(const std::vector<Thumbnail>& thumbnails, const Layout& layout, 
 }
 
 std::string conditions(const ShadingInputs& inputs, const Settings& settings,
-                       const Rendered& whole) {
+                       const PictureFacts& whole) {
   std::string text;
   if (settings.mode != Mode::Reference) {
     text = settings.mode == Mode::SplitSum ? "split-sum" : "split-sum minus reference";
@@ -180,7 +180,7 @@ std::string conditions(const ShadingInputs& inputs, const Settings& settings,
 }
 
 void write_title(const std::string& name, const ShadingInputs& inputs, const Settings& settings,
-                 const Rendered& whole, const Layout& layout, Layers& sheet) {
+                 const PictureFacts& whole, const Layout& layout, Layers& sheet) {
   const double unit = layout.title / 128.0, left = layout.margin;
   const double width = layout.width - 2 * left;
   draw_text(sheet, {left, 58 * unit}, text_within(name, 26 * unit, width), {26 * unit, ink});
@@ -210,11 +210,11 @@ Layers display_codes(Layers linear) {
   return linear;
 }
 
-Rendered means_of(const std::vector<Tile>& tiles) {
-  Rendered whole;
+PictureFacts means_of(const std::vector<Tile>& tiles) {
+  PictureFacts whole;
   const double share = 1.0 / static_cast<double>(tiles.size());
   for (const Tile& tile : tiles) {
-    const Rendered& one = tile.picture;
+    const PictureFacts& one = tile.picture.facts;
     whole.mean_samples += share * one.mean_samples;
     whole.most_samples = std::max(whole.most_samples, one.most_samples);
     whole.mean_error += share * one.mean_error;
@@ -228,7 +228,7 @@ Rendered means_of(const std::vector<Tile>& tiles) {
 
 // The sheet without its pictures.
 Layers blank_sheet(const Svbrdf& maps, const ShadingInputs& inputs, const Settings& settings,
-                   const Rendered& whole, const Layout& layout) {
+                   const PictureFacts& whole, const Layout& layout) {
   Layers sheet = make_sheet({layout.width, layout.height}, paper);
   write_title(maps.name, inputs, settings, whole, layout, sheet);
   place_maps(thumbnails_of(maps), layout, sheet);
@@ -258,8 +258,8 @@ ContactSheet make_contact_sheet(const Svbrdf& maps, const ShadingInputs& inputs,
   const Size cell = settings.size.width > 0 ? settings.size : usual_cell;
   const Layout layout = layout_of(cell, static_cast<int>(thumbnails_of(maps).size()));
   const std::vector<Tile> tiles = render_tiles(maps, inputs, settings, layout, to_viewer);
-  ContactSheet made{means_of(tiles), {}};
-  Layers sheet = blank_sheet(maps, inputs, settings, made.whole, layout);
+  ContactSheet made{{{}, means_of(tiles)}, {}};
+  Layers sheet = blank_sheet(maps, inputs, settings, made.whole.facts, layout);
   if (settings.mode == Mode::Difference) made.view = false_colour_sheet(tiles, layout, sheet);
   for (size_t i = 0; i < tiles.size(); ++i) {
     place_tile(tiles[i].picture.image, tiles[i].caption, static_cast<int>(i), layout, sheet);

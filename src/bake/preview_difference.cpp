@@ -4,9 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
 
 #include "kiln/math/vec.h"
+#include "kiln/parallel/rows.h"
 #include "lettering.h"
 #include "sheet.h"
 
@@ -46,10 +52,51 @@ double round_up(double value) {
   return 10 * power;
 }
 
+Color shown(float luminance, double scale) {
+  return color_of(static_cast<float>(luminance / scale));
+}
+
+int legend_rows(Size picture) { return std::clamp(picture.width / 8, 8, 64); }
+
 void put(Layers& image, int x, int y, const Color& color) {
   image.layers[0].plane.at(x, y) = color.x;
   image.layers[1].plane.at(x, y) = color.y;
   image.layers[2].plane.at(x, y) = color.z;
+}
+
+/// How many floats share half of their bits.
+struct Counts {
+  std::vector<size_t> counts = std::vector<size_t>(1 << 16);
+
+  /// The half of the float of this rank, which becomes its rank among those that share it.
+  std::uint32_t half_of(size_t& rank) const {
+    std::uint32_t half = 0;
+    while (rank >= counts[half]) rank -= counts[half++];
+    return half;
+  }
+};
+
+// Positive floats sort as their bits do: the float of a rank is found by its upper half, then by
+// its lower one, and none need be kept.
+// @param for_each  calls its argument with every luminance
+template <class ForEach>
+double scale_of(const ForEach& for_each) {
+  const auto for_sizes = [&](const auto& visit) {
+    for_each([&](float luminance) {
+      const float size = std::abs(luminance);
+      if (std::isfinite(size)) visit(std::bit_cast<std::uint32_t>(size));
+    });
+  };
+  Counts upper, lower;
+  size_t all = 0;
+  for_sizes([&](std::uint32_t bits) { ++upper.counts[bits >> 16], ++all; });
+  if (all == 0) return round_up(0);
+  auto rank = static_cast<size_t>(share_within * static_cast<double>(all - 1));
+  const std::uint32_t half = upper.half_of(rank);
+  for_sizes([&](std::uint32_t bits) {
+    if (bits >> 16 == half) ++lower.counts[bits & 0xffff];
+  });
+  return round_up(double{std::bit_cast<float>(half << 16 | lower.half_of(rank))});
 }
 
 struct Bar {
@@ -70,21 +117,16 @@ void draw_bar(Layers& strip, const Bar& bar) {
 }  // namespace
 
 double difference_scale(const std::vector<const Layers*>& differences) {
-  std::vector<float> sizes;
-  for (const Layers* image : differences) {
-    const Plane& alpha = *image->find("A");
-    for (int y = 0; y < image->size.height; ++y) {
-      for (int x = 0; x < image->size.width; ++x) {
-        const float size = std::abs(luminance_at(*image, x, y));
-        if (alpha.at(x, y) > 0 && std::isfinite(size)) sizes.push_back(size);
+  return scale_of([&](const auto& visit) {
+    for (const Layers* image : differences) {
+      const Plane& alpha = *image->find("A");
+      for (int y = 0; y < image->size.height; ++y) {
+        for (int x = 0; x < image->size.width; ++x) {
+          if (alpha.at(x, y) > 0) visit(luminance_at(*image, x, y));
+        }
       }
     }
-  }
-  if (sizes.empty()) return round_up(0);
-  const auto last = static_cast<double>(sizes.size() - 1);
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(share_within * last);
-  std::nth_element(sizes.begin(), at, sizes.end());
-  return round_up(*at);
+  });
 }
 
 Layers paint_difference(const Layers& difference, double scale) {
@@ -92,8 +134,7 @@ Layers paint_difference(const Layers& difference, double scale) {
   painted.layers[3].plane = *difference.find("A");
   for (int y = 0; y < painted.size.height; ++y) {
     for (int x = 0; x < painted.size.width; ++x) {
-      const auto share = static_cast<float>(luminance_at(difference, x, y) / scale);
-      put(painted, x, y, color_of(share));
+      put(painted, x, y, shown(luminance_at(difference, x, y), scale));
     }
   }
   return painted;
@@ -132,34 +173,48 @@ Layers difference_legend(Size size, double scale) {
 Layers difference_view(const Layers& difference) {
   const double scale = difference_scale({&difference});
   const Size size = difference.size;
-  const int strip = std::clamp(size.width / 8, 8, 64);
+  const int strip = legend_rows(size);
   Layers view = make_layers({size.width, size.height + strip}, {"R", "G", "B", "A"});
   place(paint_difference(difference, scale), {0, 0}, view);
   place(difference_legend({size.width, strip}, scale), {0, size.height}, view);
   return view;
 }
 
-std::vector<std::pair<std::string, double>> difference_figures(const Layers& difference,
-                                                               double mean_radiance) {
-  const Plane& alpha = *difference.find("A");
-  double sum = 0, squares = 0, greatest = 0, count = 0;
-  for (size_t c = 0; c < 3; ++c) {
-    for (int y = 0; y < difference.size.height; ++y) {
-      for (int x = 0; x < difference.size.width; ++x) {
-        if (alpha.at(x, y) <= 0) continue;
-        const double value = difference.layers[c].plane.at(x, y);
-        sum += value;
-        squares += value * value;
-        greatest = std::max(greatest, std::abs(value));
-        ++count;
-      }
+Plane difference_luminance(const Layers& difference) {
+  Plane luminance(difference.size);
+  for (int y = 0; y < difference.size.height; ++y) {
+    for (int x = 0; x < difference.size.width; ++x) {
+      luminance.at(x, y) = luminance_at(difference, x, y);
     }
   }
-  count = std::max(count, 1.0);
-  return {{"mean radiance", mean_radiance},
-          {"mean difference", sum / count},
-          {"rms difference", std::sqrt(squares / count)},
-          {"greatest difference", greatest}};
+  return luminance;
+}
+
+ImageBands difference_bands(Plane luminance) {
+  const double scale = scale_of([&](const auto& visit) {
+    for (int y = 0; y < luminance.height(); ++y) {
+      for (const float value : luminance.texels_of_row(y)) visit(value);
+    }
+  });
+  const Size size = luminance.size();
+  const auto held = std::make_shared<const Plane>(std::move(luminance));
+  const auto legend =
+      std::make_shared<const Layers>(difference_legend({size.width, legend_rows(size)}, scale));
+  ImageBands bands;
+  bands.size = {size.width, size.height + legend->size.height};
+  bands.names = {"R", "G", "B", "A"};
+  bands.band_rows = 64;
+  bands.make = [held, legend, scale, size](int first, int rows) {
+    Layers band = make_layers({size.width, rows}, {"R", "G", "B", "A"});
+    band.layers[3].plane = Plane(band.size, 1);
+    for_rows(std::clamp(size.height - first, 0, rows), [&](int y) {
+      const float* values = held->row(first + y);
+      for (int x = 0; x < size.width; ++x) put(band, x, y, shown(values[x], scale));
+    });
+    place(*legend, {0, size.height - first}, band);
+    return band;
+  };
+  return bands;
 }
 
 }  // namespace kiln

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "kiln/image/bands.h"
 #include "kiln/image/layers.h"
 
 namespace kiln {
@@ -13,7 +12,7 @@ namespace kiln {
 // white where there is none, red where the first is too bright, blue where it is too dark.
 
 /// A scale of 1, 2 or 5 times a power of ten that all but one in two hundred of the pixels shown
-/// stay within.
+/// stay within; those whose difference is not finite do not count.
 double difference_scale(const std::vector<const Layers*>& differences);
 
 /// Planes R G B A as a display shows them (sRGB); +-scale is full colour, what lies beyond is
@@ -27,8 +26,10 @@ Layers difference_legend(Size size, double scale);
 /// One picture with its legend below.
 Layers difference_view(const Layers& difference);
 
-/// "mean difference", ... of the pixels shown, over all colours.
-std::vector<std::pair<std::string, double>> difference_figures(const Layers& difference,
-                                                               double mean_radiance);
+/// Of each pixel, what the view of a difference shows.
+Plane difference_luminance(const Layers& difference);
+
+/// The same view, a band of rows at a time, of a picture that shows the surface everywhere.
+ImageBands difference_bands(Plane luminance);
 
 }  // namespace kiln

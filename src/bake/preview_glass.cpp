@@ -147,7 +147,7 @@ struct GlassRenderer {
   Plane &carried, &trapped;
 
   void add(int x, int y, const PointRange& range, PixelSums& sums) const {
-    const WideUint texels = texel_hashes(x, y, seed);
+    const WideUint texels = texel_hashes(x, body.picture.first_row() + y, seed);
     const int share = (range.last - range.first) / body.picture.positions();
     for (int position = 0; position < body.picture.positions(); ++position) {
       TexelBlock<F> block;
@@ -175,26 +175,12 @@ struct GlassRenderer {
   }
 };
 
-// Mean over the pixels that show the body.
-double mean_shown(const Plane& values, const Plane& alpha) {
-  double sum = 0, pixels = 0;
-  for (int y = 0; y < values.height(); ++y) {
-    for (int x = 0; x < values.width(); ++x) {
-      if (alpha.at(x, y) <= 0) continue;
-      sum += values.at(x, y);
-      ++pixels;
-    }
-  }
-  return pixels > 0 ? sum / pixels : 0;
-}
-
 }  // namespace
 
 GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,
                             const SamplePlan& plan) {
-  GlassPicture made{make_sampled_image(picture)};
+  GlassPicture made{make_sampled_image(picture), Plane(picture.size()), Plane(picture.size())};
   Layers& image = made.image;
-  Plane carried(picture.size(), 0), trapped(picture.size(), 0);
   const GlassAlbedos albedos(inputs.surface.ior);
   const Sampling sampling{plan.samples / repetitions, plan.most / repetitions, plan.target_error,
                           plan.seed};
@@ -203,11 +189,10 @@ GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,
   const GlassBody body{picture, *inputs.light->environment,
                        F(static_cast<float>(inputs.surface.ior)),
                        inputs.surface.energy == "none" ? nullptr : &albedos};
-  sample_blocks(GlassRenderer{body, points, plan.seed, carried, trapped}, sampling, image);
+  sample_blocks(GlassRenderer{body, points, plan.seed, made.carried, made.trapped}, sampling,
+                image);
   scale_plane(image.layers[points_plane].plane, repetitions);
-  clear_background(image);
-  made.lost = 1 - mean_shown(carried, image.layers[3].plane);
-  made.trapped = mean_shown(trapped, image.layers[3].plane);
+  clear_background(picture, image);
   return made;
 }
 

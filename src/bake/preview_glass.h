@@ -24,9 +24,9 @@ namespace kiln {
 inline constexpr int most_bounces = 32;
 
 struct GlassPicture {
-  Layers image;     ///< planes R G B A stderr.R stderr.G stderr.B samples.count
-  double lost = 0;  ///< mean share of the light that no path carries out [0..1]; noise has a sign
-  double trapped = 0;  ///< mean share of the light on paths that were ended inside [0..1]
+  Layers image;   ///< planes R G B A stderr.R stderr.G stderr.B samples.count
+  Plane carried;  ///< share of the light on paths that left [0..1]; noise goes beyond
+  Plane trapped;  ///< share of the light on paths that were ended inside [0..1]
 };
 
 GlassPicture estimate_glass(const Picture& picture, const ShadingInputs& inputs,

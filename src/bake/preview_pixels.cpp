@@ -41,6 +41,10 @@ void store_color(Layers& image, int first_plane, int x, int y, const Vec3<F>& co
 
 void fill_coverage(const Picture& picture, Layers& image) {
   Plane& alpha = image.layers[3].plane;
+  if (!picture.is_ball()) {
+    alpha = Plane(picture.size(), 1);
+    return;
+  }
   for (int y = 0; y < picture.size().height; ++y) {
     for (int x = 0; x < picture.size().width; ++x) alpha.at(x, y) = picture.coverage(x, y);
   }
@@ -58,7 +62,8 @@ void scale_plane(Plane& plane, float scale) {
   }
 }
 
-void clear_background(Layers& image) {
+void clear_background(const Picture& picture, Layers& image) {
+  if (!picture.is_ball()) return;
   const Plane& alpha = image.layers[3].plane;
   for (size_t l = 0; l < image.layers.size(); ++l) {
     if (l == 3) continue;

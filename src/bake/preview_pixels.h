@@ -69,6 +69,6 @@ bool covers_any(const Layers& image, int x, int y);
 void scale_plane(Plane& plane, float scale);
 
 /// Off the ball there is no colour either.
-void clear_background(Layers& image);
+void clear_background(const Picture& picture, Layers& image);
 
 }  // namespace kiln

@@ -166,7 +166,8 @@ struct ReferenceRenderer {
   void add(int x, int y, const PointRange& range, PixelSums& sums) const {
     if (range.last == range.first) return;
     const int share = (range.last - range.first) / picture.positions();
-    ScrambledPoints part{points, range.first, range.first + share, texel_hashes(x, y, seed)};
+    ScrambledPoints part{points, range.first, range.first + share,
+                         texel_hashes(x, picture.first_row() + y, seed)};
     for (int position = 0; position < picture.positions(); ++position) {
       shader.add_points(point_at(picture, shader, x, y, position), part, sums.light);
       part.first += share;
@@ -216,7 +217,7 @@ Layers estimate_picture(const Picture& picture, const ShadingInputs& inputs,
     sample_blocks(renderer, sampling, image);
   });
   scale_plane(image.layers[points_plane].plane, directions);
-  clear_background(image);
+  clear_background(picture, image);
   return image;
 }
 
@@ -228,12 +229,13 @@ Layers approximate_picture(const Picture& picture, const ShadingInputs& inputs) 
     for_rows(picture.size().height, [&](int y) {
       for (int x = 0; x < picture.size().width; x += lanes) {
         if (!covers_any(image, x, y)) continue;
-        if (inputs.light) store_color(image, 0, x, y, approximate_texels(picture, shader, x, y));
-        add_color(image, x, y, sum_lights(picture, shader, lights, x, y));
+        Vec3<F> color = sum_lights(picture, shader, lights, x, y);
+        if (inputs.light) color += approximate_texels(picture, shader, x, y);
+        store_color(image, 0, x, y, color);
       }
     });
   });
-  clear_background(image);
+  clear_background(picture, image);
   return image;
 }
 

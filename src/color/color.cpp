@@ -253,6 +253,16 @@ void ColorConfig::convert(Layers& image, const std::string& from, const std::str
   transform_rows(work_->source, *transform, color, as_is, as_is);
 }
 
+bool ColorConfig::converts_each_alone(const std::string& from, const std::string& to) const {
+  const std::string source = work_->color_space(*this, from);
+  const std::string target = work_->color_space(*this, to);
+  if (source == target) return false;
+  return translated(work_->source, [&] {
+    return !exact(work_->config->getProcessor(source.c_str(), target.c_str()))
+                ->hasChannelCrosstalk();
+  });
+}
+
 Layers ColorConfig::to_display(const Layers& image, const std::string& working,
                                const Display& display) const {
   const std::string source = work_->color_space(*this, working);

@@ -14,6 +14,7 @@
 #include "openexr_file.h"
 #include "openexr_header.h"
 #include "openexr_stream.h"
+#include "openexr_zip_write.h"
 #include "samples.h"
 
 namespace kiln::io {
@@ -28,18 +29,15 @@ Imf::Header header_of(Size size, const StoredPlanes& layout, const WriteOptions&
   return header;
 }
 
-bool is_color(const std::string& name) { return channel_rank(name) < channel_rank("A"); }
-
-// Writes rows in blocks of what ZIP compresses at once, and no rounding depends on their number.
-class ExrEncoder : public BandEncoder {
+// Writes rows that are not packed.
+class UnpackedEncoder : public BandEncoder {
  public:
-  ExrEncoder(const FileToWrite& file, const StoredPlanes& layout)
+  UnpackedEncoder(const FileToWrite& file, const StoredPlanes& layout, const Imf::Header& header)
       : file_(file),
         row_bytes_(static_cast<size_t>(file.size.width) * sample_bytes(file.options.type)),
         stored_(layout.planes.size() * rows * row_bytes_),
         scratch_(static_cast<size_t>(file.size.width)),
         stream_(file.path.string(), file.out) {
-    const Imf::Header header = header_of(file.size, layout, file.options);
     writing_openexr([&] { output_.emplace(stream_, header, 0); });
   }
 
@@ -67,16 +65,8 @@ class ExrEncoder : public BandEncoder {
   }
 
   void fill(const StoredPlanes& band, size_t channel, int first, int count) {
-    const bool premultiplied = file_.options.alpha == AlphaStorage::Premultiplied &&
-                               band.alpha_channel >= 0 && is_color(band.names[channel]);
     for (int i = 0; i < count; ++i) {
-      std::span<const float> row = band.planes[channel]->texels_of_row(first + i);
-      if (premultiplied) {
-        const Plane& alpha = *band.planes[static_cast<size_t>(band.alpha_channel)];
-        std::transform(row.begin(), row.end(), alpha.row(first + i), scratch_.begin(),
-                       [](float color, float a) { return color * a; });
-        row = scratch_;
-      }
+      const auto row = row_to_store(band, channel, first + i, file_.options.alpha, scratch_);
       store_samples(row, file_.options.type, 1, stored_row(channel, i), file_.facts);
     }
   }
@@ -103,7 +93,11 @@ class ExrEncoder : public BandEncoder {
 }  // namespace
 
 std::unique_ptr<BandEncoder> openexr_encoder(const FileToWrite& file, const StoredPlanes& layout) {
-  return std::make_unique<ExrEncoder>(file, layout);
+  const Imf::Header header = header_of(file.size, layout, file.options);
+  if (file.options.packing == Packing::Zip) {
+    return std::make_unique<ZipEncoder>(file, layout, header);
+  }
+  return std::make_unique<UnpackedEncoder>(file, layout, header);
 }
 
 }  // namespace kiln::io

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string_view>
 
 #include "color_reading.h"
 #include "kiln/core/names.h"
@@ -72,6 +74,37 @@ void colors_to_working(Layers& image, const std::string& from, const PlannedMap&
   config.convert(image, from, space_of_factors);
   scale_colors(image, map.decoding);
   config.convert(image, space_of_factors, working);
+}
+
+std::optional<ColorCodes> codes_to_working(const std::string& from, const PlannedMap& map,
+                                           const ColorConfig& config, const std::string& working) {
+  if (is_scaled(map.decoding) || !config.converts_each_alone(from, working)) return std::nullopt;
+  Layers image = make_layers({256, 1}, {"R", "G", "B"});
+  for (Layer& layer : image.layers) {
+    for (int code = 0; code < 256; ++code) {
+      layer.plane.at(code, 0) = static_cast<float>(code) / 255.0f;
+    }
+  }
+  config.convert(image, from, working);
+  ColorCodes codes;
+  for (size_t c = 0; c < codes.size(); ++c) {
+    std::copy_n(image.layers[c].plane.row(0), 256, codes[c].begin());
+  }
+  return codes;
+}
+
+void look_up(const ColorCodes& codes, Layers& image) {
+  constexpr std::string_view names = "RGB";
+  for (Layer& layer : image.layers) {
+    const size_t channel = layer.name.size() == 1 ? names.find(layer.name) : names.npos;
+    if (channel == names.npos) continue;
+    for (int y = 0; y < image.size.height; ++y) {
+      float* row = layer.plane.row(y);
+      for (int x = 0; x < image.size.width; ++x) {
+        row[x] = codes[channel][static_cast<std::uint8_t>(row[x] * 255.0f + 0.5f)];
+      }
+    }
+  }
 }
 
 void scale_stored_colors(Layers& image, const std::string& from, const PlannedMap& map,

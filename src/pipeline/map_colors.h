@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "kiln/color/color.h"
@@ -35,5 +37,16 @@ void scale_stored_colors(Layers& image, const std::string& from, const PlannedMa
 /// @return what was converted, in words
 std::string constant_to_working(SlotMap& constant, const PlannedMap& map, const ColorConfig& config,
                                 const std::string& working);
+
+/// What each code of 8 bits comes to in the working space, by channel.
+using ColorCodes = std::array<std::array<float, 256>, 3>;
+
+/// The same colours as colors_to_working makes of an image of such codes. Nothing where a channel
+/// depends on the others, or is the same as before.
+std::optional<ColorCodes> codes_to_working(const std::string& from, const PlannedMap& map,
+                                           const ColorConfig& config, const std::string& working);
+
+/// Planes R G B of codes of 8 bits, scaled to [0,1], become what they stand for.
+void look_up(const ColorCodes& codes, Layers& image);
 
 }  // namespace kiln

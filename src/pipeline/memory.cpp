@@ -9,13 +9,15 @@
 #include "kiln/io/image_rows.h"
 #include "kiln/parallel/threads.h"
 #include "map_opening.h"
+#include "outputs.h"
 
 namespace kiln {
 namespace {
 
 constexpr long long mebibyte = 1LL << 20;
 constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
-constexpr int rows_of_block = 64;                    // that decoders give at once
+constexpr long long most_of_plane = mebibyte / 4;
+constexpr int rows_of_block = 64;  // that decoders give at once
 
 // "1.5 GiB", "300 MiB"
 std::string text_of(long long bytes) {
@@ -51,9 +53,11 @@ long long bytes_of(const RowCost& cost, const BandPlan& bands) {
 
 BandPlan plan_bands(const RowCost& cost, long long budget) {
   BandPlan bands;
+  // Planes of bands that are larger than the caches near a core are slower, and no better.
+  while (bands.rows > band_unit && 4 * cost.width * bands.rows > most_of_plane) bands.rows /= 2;
   if (budget <= 0) return bands;
   while (bands.at_once > 2 && bytes_of(cost, bands) > budget) --bands.at_once;
-  while (bands.rows > 16 && bytes_of(cost, bands) > budget) bands.rows /= 2;
+  while (bands.rows > band_unit && bytes_of(cost, bands) > budget) bands.rows /= 2;
   bands.at_once = bytes_of(cost, bands) > budget ? 1 : bands.at_once;
   return bands;
 }
@@ -84,7 +88,9 @@ RowCost cost_of_rows(const Plan& plan, const Task& task) {
   const SetCost set = cost_of_set(plan.sets[*task.set], needs);
   // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
   const int planes = needs.resolved ? 2 * set.channels + 3 * set.planes : 3 * set.channels;
-  const auto kept = static_cast<long long>(needs.held * 4 * static_cast<double>(area(set.size)));
+  const double views = task.needs.late_view && is_for_viewing(task.out) ? 1 : 0;
+  const auto kept =
+      static_cast<long long>((needs.held + views) * 4 * static_cast<double>(area(set.size)));
   return {set.size.width, planes, 0, set.channels, set.held + kept};
 }
 

@@ -7,7 +7,7 @@ namespace kiln {
 
 /// How a set is read: rows of a band, and how many bands are on their way at once.
 struct BandPlan {
-  int rows = 64;
+  int rows = 64;  ///< a multiple of band_unit
   int at_once = 6;
 };
 

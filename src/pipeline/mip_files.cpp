@@ -116,6 +116,7 @@ void open_images(const fs::path& folder, const Task& task, const MipSheet& sheet
   file.type = held_type(task, map.preferred_type, format.types);
   file.color_to = color_of(map, file.type, format.name);
   WriteOptions options;
+  options.run = for_rows;
   options.type = file.type;
   options.color_tag = tag_of(file);
   options.attributes = attributes_of(map, file);

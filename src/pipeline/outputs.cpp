@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "kiln/io/texture_file.h"
+#include "kiln/parallel/rows.h"
 #include "kiln/pipeline/report.h"
 #include "kiln/store/publish.h"
 
@@ -33,42 +35,24 @@ void check_type(Product product, std::optional<PixelType> type, const fs::path& 
                                         pixel_type_name(*type), fmt::join(held, " or ")));
 }
 
-Layers colors_only(const Layers& image) {
-  Layers kept{image.size, {}};
-  for (const Layer& layer : image.layers) {
-    if (layer.name.find('.') == std::string::npos) kept.layers.push_back(layer);
-  }
-  return kept;
+void keep_colors(Layers& image) {
+  std::erase_if(image.layers,
+                [](const Layer& layer) { return layer.name.find('.') != std::string::npos; });
 }
 
 // Colour times coverage, without the coverage: what a format without alpha can show.
-Layers over_black(const Layers& image) {
-  Layers flat = image;
-  const Plane* alpha = image.find("A");
-  std::erase_if(flat.layers, [](const Layer& layer) { return layer.name == "A"; });
-  if (!alpha) return flat;
-  for (Layer& layer : flat.layers) {
-    for (int y = 0; y < flat.size.height; ++y) {
+void lay_over_black(Layers& image) {
+  const auto found = std::find_if(image.layers.begin(), image.layers.end(),
+                                  [](const Layer& layer) { return layer.name == "A"; });
+  if (found == image.layers.end()) return;
+  const Plane alpha = std::move(found->plane);
+  image.layers.erase(found);
+  for (Layer& layer : image.layers) {
+    for (int y = 0; y < image.size.height; ++y) {
       float* row = layer.plane.row(y);
-      for (int x = 0; x < flat.size.width; ++x) row[x] *= alpha->at(x, y);
+      for (int x = 0; x < image.size.width; ++x) row[x] *= alpha.at(x, y);
     }
   }
-  return flat;
-}
-
-// A picture as its format holds it: viewing formats through the display, errors only where channels
-// have names.
-Layers picture_for(const Plan& plan, const Task& task, const Artifact& artifact,
-                   std::string_view format, const ColorConfig& config) {
-  if (format == "openexr") return artifact.image;
-  if (artifact.view && format == "hdr") {
-    throw Error(Fault::Usage, "hdr holds no negative numbers; expected exr, tif, png or jpg");
-  }
-  const bool viewed = artifact.view && is_for_viewing(format);
-  Layers colors = colors_only(viewed ? *artifact.view : artifact.image);
-  if (!holds_alpha(format)) colors = over_black(colors);
-  if (viewed || !is_for_viewing(format)) return colors;
-  return config.to_display(colors, plan.color.working, task.output.display);
 }
 
 // Colour by the name of the Color Interop Forum; numbers are "data".
@@ -102,11 +86,12 @@ Labels labels_of(const Artifact& artifact) {
   return labels;
 }
 
-WriteOptions write_options(const Plan& plan, const Task& task, const Artifact& artifact,
-                           const fs::path& path) {
+WriteOptions options_of(const Plan& plan, const Task& task, const Artifact& artifact,
+                        const fs::path& path) {
   const WritableFormat& format = writable_format(path);
   WriteOptions options;
   options.type = chosen_type(task, artifact, path);
+  options.run = for_rows;
   options.depth = artifact.depth;
   options.labels = labels_of(artifact);
   if (!artifact.axes.empty()) options.packing = Packing::Fast;
@@ -127,13 +112,14 @@ WriteFacts write_product(const Plan& plan, const Task& task, const Artifact& art
                          const ColorConfig& config) {
   if (area(artifact.bands.size) > 0) return write_bands(path, artifact.bands, options);
   if (task.product != Product::Picture) return write_image(path, artifact.image, options);
-  const std::string_view format = writable_format(path).name;
-  return write_image(path, picture_for(plan, task, artifact, format, config), options);
+  const Shown shown = shown_by(task, artifact.view.has_value());
+  Layers picture = shown == Shown::View ? *artifact.view : artifact.image;
+  return write_image(path, stored_picture(plan, task, std::move(picture), shown, config), options);
 }
 
 std::string write_image_of(const Plan& plan, const Task& task, const Artifact& artifact,
                            const fs::path& path, const ColorConfig& config) {
-  const WriteOptions options = write_options(plan, task, artifact, path);
+  const WriteOptions options = options_of(plan, task, artifact, path);
   const WriteFacts facts = write_product(plan, task, artifact, path, options, config);
   return clamping_note(path, options.type, facts);
 }
@@ -203,6 +189,30 @@ std::string output_name(const Task& task, const Artifact& artifact) {
 }
 
 }  // namespace
+
+bool is_for_viewing(const fs::path& path) { return is_for_viewing(writable_format(path).name); }
+
+Shown shown_by(const Task& task, bool has_view) {
+  const std::string_view format = writable_format(task.out).name;
+  if (has_view && format == "hdr") {
+    throw Error(Fault::Usage, "hdr holds no negative numbers; expected exr, tif, png or jpg");
+  }
+  return has_view && is_for_viewing(format) ? Shown::View : Shown::Radiance;
+}
+
+Layers stored_picture(const Plan& plan, const Task& task, Layers picture, Shown shown,
+                      const ColorConfig& config) {
+  const std::string_view format = writable_format(task.out).name;
+  if (format == "openexr") return picture;
+  keep_colors(picture);
+  if (!holds_alpha(format)) lay_over_black(picture);
+  if (shown == Shown::View || !is_for_viewing(format)) return picture;
+  return config.to_display(picture, plan.color.working, task.output.display);
+}
+
+WriteOptions write_options(const Plan& plan, const Task& task, const Artifact& artifact) {
+  return options_of(plan, task, artifact, plan.output / task.out);
+}
 
 std::string map_file_name(const Task& task, const std::string& map, const std::string& extension,
                           bool is_file, size_t files) {

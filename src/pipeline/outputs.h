@@ -17,6 +17,26 @@ bool names_an_image(const std::filesystem::path& path);
 /// Whether one name is the other, or a folder that holds it.
 bool collide(const std::string& a, const std::string& b);
 
+/// Whether files of that name are made for viewing: radiance goes through the display.
+bool is_for_viewing(const std::filesystem::path& path);
+
+/// What the file of a picture holds.
+enum class Shown {
+  Radiance,
+  View  ///< Artifact::view, or a LateView
+};
+/// @param has_view  the picture is one that no display shows as it is
+/// @error Fault::Usage where the format can hold neither
+Shown shown_by(const Task& task, bool has_view);
+
+/// A picture, or a band of it, as the format of the task's file holds it: viewing formats through
+/// the display, errors only where channels have names.
+Layers stored_picture(const Plan& plan, const Task& task, Layers picture, Shown shown,
+                      const ColorConfig& config);
+
+/// How the file of a task of one is written.
+WriteOptions write_options(const Plan& plan, const Task& task, const Artifact& artifact);
+
 struct Written {
   std::vector<std::string> outputs;  ///< below the output folder, with '/'
   std::vector<std::string> notes;

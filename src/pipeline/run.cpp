@@ -204,6 +204,7 @@ class Runner {
     }
     if (baked.sheet) {
       add(write_sheet(plan_, task, *baked.sheet, *reader, config_, heed), record);
+      if (baked.sheet->told) tell(baked.sheet->told(), record);
     }
     tell(reader->record());
   }
@@ -211,6 +212,11 @@ class Runner {
   static void add(const Written& written, TaskRecord& record) {
     record.outputs.insert(record.outputs.end(), written.outputs.begin(), written.outputs.end());
     record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
+  }
+
+  static void tell(const Told& told, TaskRecord& record) {
+    record.notes.insert(record.notes.end(), told.notes.begin(), told.notes.end());
+    record.figures.insert(record.figures.end(), told.figures.begin(), told.figures.end());
   }
 
   // Each set once, however many of its tasks read it.

@@ -57,6 +57,10 @@ void SetReader::open(const std::vector<PlannedMap>& maps) {
     const MapColor color = decide_color(map, facts, config_, color_);
     added.from = color.from;
     if (!color.warning.empty()) record_.warnings.push_back(color.warning);
+    const bool is_color = !added.from.empty() && added.letters.size() != 2;
+    if (is_color && facts.type == PixelType::Uint8) {
+      added.codes = codes_to_working(added.from, map, config_, color_.working);
+    }
     const std::string name = map.path.filename().string();
     bands_.given.push_back({map.slot, name, false, facts.size, static_cast<int>(added.names.size()),
                             std::string(pixel_type_name(facts.type)), added.from});
@@ -172,7 +176,11 @@ SlotMaps SetReader::stored(const MapRows& rows) const {
 
 Layers SetReader::working_colors(const Map& map, const MapRows& rows) const {
   Layers colors = as_rgb(picked(map, rows));
-  colors_to_working(colors, map.from, map.planned, config_, color_.working);
+  if (map.codes) {
+    look_up(*map.codes, colors);
+  } else {
+    colors_to_working(colors, map.from, map.planned, config_, color_.working);
+  }
   return colors;
 }
 

@@ -11,6 +11,7 @@
 #include "kiln/material/map_bands.h"
 #include "kiln/material/resolver.h"
 #include "kiln/pipeline/report.h"
+#include "map_colors.h"
 
 namespace kiln {
 
@@ -41,9 +42,10 @@ class SetReader {
   struct Map {
     PlannedMap planned;
     size_t file = 0;
-    std::string letters = {};             ///< "rgb", "rg", "g", ...
-    std::vector<std::string> names = {};  ///< of these channels in the file
-    std::string from = {};                ///< colour space, of colours
+    std::string letters = {};              ///< "rgb", "rg", "g", ...
+    std::vector<std::string> names = {};   ///< of these channels in the file
+    std::string from = {};                 ///< colour space, of colours
+    std::optional<ColorCodes> codes = {};  ///< of colours in 8 bits, where they tell all
   };
 
   void open(const std::vector<PlannedMap>& maps);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "kiln/io/image_file.h"
 #include "kiln/parallel/rows.h"
@@ -22,8 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view srgb = "srgb_rec709_scene";
 
-WriteOptions options_of(const Task& task, const Artifact& artifact, const fs::path& path) {
+WriteOptions options_of_map(const Task& task, const Artifact& artifact, const fs::path& path) {
   WriteOptions options;
+  options.run = for_rows;
   options.type = held_type(task, artifact.preferred_type, writable_format(path).types);
   options.attributes = artifact.attributes;
   options.attributes.emplace_back("Software", software());
@@ -41,28 +43,73 @@ std::vector<std::string> names_of(const Layers& image) {
 
 /// A file of a sheet on its way.
 struct File {
-  const Artifact& artifact;
   std::string name;
   PixelType type;
+  std::function<Layers(Layers)> stored;  ///< rows that are made, as the file holds them
   std::unique_ptr<ImageWriter> writer;
 };
 
-std::vector<File> open_files(const Plan& plan, const Task& task, const MapSheet& sheet, Size size) {
-  std::vector<File> files;
-  for (const Artifact& artifact : sheet.files) {
-    const std::string name = map_file_name(task, artifact.name, artifact.extension,
-                                           names_an_image(task.out), sheet.files.size());
-    for (const File& other : files) {
-      if (other.name == name) {
-        throw Error(Fault::Usage,
-                    fmt::format("out: two files of {} would be named '{}'", task.bake, name));
-      }
+/// What files are made by.
+struct Making {
+  const Plan& plan;
+  const Task& task;
+  const MapSheet& sheet;
+  const ColorConfig& config;
+};
+
+File open_file(const Making& making, const std::string& name, const Artifact& artifact, Size size,
+               const WriteOptions& options, std::function<Layers(Layers)> stored) {
+  const Layers texel = make_layers({1, 1}, names_of(artifact.image));
+  const std::vector<std::string> names = names_of(stored(texel));
+  return {name, options.type, std::move(stored),
+          std::make_unique<ImageWriter>(making.plan.output / name, size, names, options)};
+}
+
+File open_picture(const Making& making, Size size) {
+  const Artifact& artifact = making.sheet.files.front();
+  const auto stored = [making](Layers rows) {
+    return stored_picture(making.plan, making.task, std::move(rows), Shown::Radiance,
+                          making.config);
+  };
+  return open_file(making, making.task.out, artifact, size,
+                   write_options(making.plan, making.task, artifact), stored);
+}
+
+File open_map(const Making& making, const Artifact& artifact, Size size) {
+  const auto& [plan, task, sheet, config] = making;
+  const std::string name = map_file_name(task, artifact.name, artifact.extension,
+                                         names_an_image(task.out), sheet.files.size());
+  const auto stored = [&artifact, &config = config](Layers rows) {
+    if (artifact.color_from != artifact.color_to) {
+      config.convert(rows, artifact.color_from, artifact.color_to);
     }
-    const fs::path path = plan.output / name;
-    const WriteOptions options = options_of(task, artifact, path);
-    files.push_back({artifact, name, options.type,
-                     std::make_unique<ImageWriter>(path, size, names_of(artifact.image), options)});
+    return rows;
+  };
+  return open_file(making, name, artifact, size, options_of_map(task, artifact, plan.output / name),
+                   stored);
+}
+
+void require_own_names(const std::string& bake, const std::vector<File>& files) {
+  for (size_t i = 0; i < files.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      if (files[i].name != files[j].name) continue;
+      throw Error(Fault::Usage,
+                  fmt::format("out: two files of {} would be named '{}'", bake, files[i].name));
+    }
   }
+}
+
+std::vector<File> open_files(const Making& making, Size size) {
+  std::vector<File> files;
+  if (making.task.product == Product::Picture) {
+    files.push_back(open_picture(making, size));
+    return files;
+  }
+  files.reserve(making.sheet.files.size());
+  for (const Artifact& artifact : making.sheet.files) {
+    files.push_back(open_map(making, artifact, size));
+  }
+  require_own_names(making.task.bake, files);
   return files;
 }
 
@@ -89,20 +136,37 @@ struct Band {
   std::vector<Layers> made;
 };
 
-}  // namespace
+/// Reads all rows of a set; make(Band) and then write(Band), in order, for each band.
+template <class Make, class Write>
+void run_bands(SetReader& reader, const BandPlan& bands, const std::function<void()>& heed,
+               const Make& make, const Write& write) {
+  const int height = reader.bands().size.height;
+  run_stages<Band>((height + bands.rows - 1) / bands.rows, bands.at_once,
+                   [&](int i) {
+                     heed();
+                     return Band{reader.next(std::min(bands.rows, height - i * bands.rows)), {}};
+                   },
+                   [&](int, Band& band) {
+                     make(band);
+                     band.read.windows.clear();
+                   },
+                   [&](int, Band& band) { write(band); });
+}
 
-Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
-                    const ColorConfig& config, const std::function<void()>& heed) {
-  const Size size = reader.bands().size;
-  const BandPlan bands = require_bands(cost_of_rows(plan, task), plan.max_memory);
-  std::vector<File> files = open_files(plan, task, sheet, size);
+void note_clamping(const std::string& name, PixelType type, const WriteFacts& facts,
+                   Written& written) {
+  written.outputs.push_back(name);
+  const std::string note = clamping_note(name, type, facts);
+  if (!note.empty()) written.notes.push_back(note);
+}
+
+Written write_files(const Making& making, SetReader& reader, const BandPlan& bands,
+                    const std::function<void()>& heed) {
+  std::vector<File> files = open_files(making, reader.bands().size);
   const auto make = [&](Band& band) {
-    band.made = sheet.make(band.read);
-    band.read.windows.clear();
+    band.made = making.sheet.make(band.read);
     for (size_t i = 0; i < files.size(); ++i) {
-      const Artifact& artifact = files[i].artifact;
-      if (artifact.color_from == artifact.color_to) continue;
-      config.convert(band.made[i], artifact.color_from, artifact.color_to);
+      band.made[i] = files[i].stored(std::move(band.made[i]));
     }
   };
   const auto write = [&](const Band& band) {
@@ -111,22 +175,53 @@ Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, S
       files[at].writer->add(band.made[at]);
     });
   };
-  run_stages<Band>(
-      (size.height + bands.rows - 1) / bands.rows, bands.at_once,
-      [&](int i) {
-        heed();
-        return Band{reader.next(std::min(bands.rows, size.height - i * bands.rows)), {}};
-      },
-      [&](int, Band& band) { make(band); }, [&](int, Band& band) { write(band); });
+  run_bands(reader, bands, heed, make, write);
   Written written;
-  for (File& file : files) {
-    const WriteFacts facts = file.writer->finish();
-    written.outputs.push_back(file.name);
-    const std::string note = clamping_note(file.name, file.type, facts);
-    if (!note.empty()) written.notes.push_back(note);
+  for (File& file : files) note_clamping(file.name, file.type, file.writer->finish(), written);
+  if (making.sheet.material) {
+    write_material(making.plan, making.task, making.sheet, reader.bands(), written);
   }
-  if (sheet.material) write_material(plan, task, sheet, reader.bands(), written);
   return written;
+}
+
+// All of the picture is made before any of the file is.
+Written write_late_view(const Making& making, SetReader& reader, const BandPlan& bands,
+                        const std::function<void()>& heed) {
+  Plane kept(reader.bands().size);
+  const auto make = [&](const Band& band) {
+    const Plane rows = making.sheet.view->keep(making.sheet.make(band.read).front());
+    for (int y = 0; y < rows.height(); ++y) {
+      const auto row = rows.texels_of_row(y);
+      std::copy(row.begin(), row.end(), kept.row(band.read.rows.first + y));
+    }
+  };
+  run_bands(reader, bands, heed, make, [](const Band&) {});
+  ImageBands view = making.sheet.view->paint(std::move(kept));
+  const auto stored = [&](Layers rows) {
+    return stored_picture(making.plan, making.task, std::move(rows), Shown::View, making.config);
+  };
+  view.names = names_of(stored(make_layers({1, 1}, view.names)));
+  view.make = [&, paint = std::move(view.make)](int first, int rows) {
+    heed();
+    return stored(paint(first, rows));
+  };
+  const std::string& name = making.task.out;
+  const WriteOptions options = write_options(making.plan, making.task, making.sheet.files.front());
+  Written written;
+  note_clamping(name, options.type, write_bands(making.plan.output / name, view, options), written);
+  return written;
+}
+
+}  // namespace
+
+Written write_sheet(const Plan& plan, const Task& task, const MapSheet& sheet, SetReader& reader,
+                    const ColorConfig& config, const std::function<void()>& heed) {
+  const BandPlan bands = require_bands(cost_of_rows(plan, task), plan.max_memory);
+  const Making making{plan, task, sheet, config};
+  const bool is_picture = task.product == Product::Picture;
+  const bool late = is_picture && shown_by(task, sheet.view.has_value()) == Shown::View;
+  return late ? write_late_view(making, reader, bands, heed)
+              : write_files(making, reader, bands, heed);
 }
 
 }  // namespace kiln

@@ -52,11 +52,16 @@ inline Layers constant_latlong(double radiance) {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Bakes a preview of `material` in `latlong` with the given settings; without an environment where
-/// that has no planes.
-/// @param shared  a table of albedos to use instead of the lobe's own
-inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
-                          const SurfaceChoice& surface = {}, const AlbedoTable* shared = nullptr) {
+/// What a preview is made of, kept for as long as it is made.
+struct PreviewScene {
+  Baked baked;
+  LightMade light;
+};
+
+/// Bakes a preview of what `of` holds of a set, in `latlong` with the given settings; without an
+/// environment where that has no planes.
+inline PreviewScene bake_scene(Ingredients of, const Layers& latlong, const Settings& settings,
+                               const SurfaceChoice& surface = {}) {
   const auto recipe = make_recipe("preview");
   for (const auto& [name, value] : settings) recipe->set(name, value);
   LightSettings light_settings;
@@ -66,13 +71,21 @@ inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const S
   if (!latlong.layers.empty()) made = make_light(latlong_image(latlong), light_settings);
   static std::map<std::string, std::shared_ptr<const AlbedoTable>> albedos;
   auto& albedo = albedos[surface.distribution + surface.masking];
-  if (!albedo && !shared) albedo = make_albedo_table(surface);
+  if (!albedo && of.albedo == nullptr) albedo = make_albedo_table(surface);
+  of.light = made.light.get();
+  if (of.albedo == nullptr) of.albedo = albedo.get();
+  of.surface = surface;
+  return {recipe->bake(of), std::move(made)};
+}
+
+/// The same of a whole set.
+/// @param shared  a table of albedos to use instead of the lobe's own
+inline Baked bake_preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,
+                          const SurfaceChoice& surface = {}, const AlbedoTable* shared = nullptr) {
   Ingredients ingredients;
   ingredients.material = &material;
-  ingredients.light = made.light.get();
-  ingredients.albedo = shared ? shared : albedo.get();
-  ingredients.surface = surface;
-  return recipe->bake(ingredients);
+  ingredients.albedo = shared;
+  return bake_scene(ingredients, latlong, settings, surface).baked;
 }
 
 inline Layers preview(const Svbrdf& material, const Layers& latlong, const Settings& settings,

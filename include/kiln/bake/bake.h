@@ -66,6 +66,7 @@ struct Needs {
   bool albedo = false;       ///< the directional-albedo table of the model
   bool own_lights = false;   ///< the settings hold lights: an environment may be missing
   MapNeeds maps = {};        ///< the maps of the set, band by band
+  bool late_view = false;    ///< its sheet is a picture with a LateView
 };
 
 /// What a reader gets of an image that is stored as a pixel type of that name.
@@ -120,6 +121,24 @@ struct SheetMaterial {
       replaced;  ///< of the set, which the files stand for: its other maps stay beside
 };
 
+/// What the user should know of a product, and its numbers.
+struct Told {
+  std::vector<std::string> notes;
+  std::vector<std::pair<std::string, double>> figures;  ///< "error of entries", 2e-9, ...
+};
+
+/// Artifact::view of a picture that is made a band of rows at a time, where all of it has to be
+/// known before any is shown.
+struct LateView {
+  /// Of rows of the picture, what is kept of each pixel. May be called from many threads at once.
+  std::function<Plane(const Layers& rows)> keep;
+  /// The view, from what was kept of the whole picture.
+  std::function<ImageBands(Plane kept)> paint;
+};
+
+/// Rows of a band of a MapSheet are a multiple of this, but the last's.
+inline constexpr int band_unit = 16;
+
 /// Files of one size that are made together, a band of rows at a time, from the maps of a set.
 struct MapSheet {
   std::vector<Artifact> files;  ///< their images have no texels: names of layers
@@ -127,6 +146,9 @@ struct MapSheet {
   std::function<std::vector<Layers>(const MapRows&)> make;
   /// Where it is there, `material.yaml` beside the files says how they are read back.
   std::optional<SheetMaterial> material = {};
+  std::optional<LateView> view = {};  ///< of a picture
+  /// Once all rows are made: what is to be told. Empty: nothing.
+  std::function<Told()> told = {};
 };
 
 struct Baked {

@@ -50,6 +50,10 @@ class ColorConfig {
   ///           kink); above 1 the same, relative to the largest of the three
   void convert(Layers& image, const std::string& from, const std::string& to) const;
 
+  /// Whether convert() changes colours, and each of R, G and B by itself alone.
+  /// @error as convert()
+  bool converts_each_alone(const std::string& from, const std::string& to) const;
+
   struct Display {
     std::string display = {};  ///< empty: the config's default
     std::string view = {};     ///< empty: the display's default

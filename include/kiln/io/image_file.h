@@ -135,6 +135,8 @@ struct WriteOptions {
   int depth = 1;
   Labels labels = {};
   Packing packing = Packing::Zip;
+  /// With which blocks of OpenEXR files are packed side by side. Empty: one after another.
+  RunTasks run = {};
 };
 
 struct WriteFacts {

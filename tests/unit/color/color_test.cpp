@@ -197,6 +197,13 @@ TEST(ColorConfig, MovesRedBetweenPrimariesByTheKnownMatrix) {
   EXPECT_NEAR(channel(image, "B"), 0.0206156, 1e-5);
 }
 
+TEST(ColorConfig, KnowsWhetherChannelsDependOnEachOther) {
+  const ColorConfig config;
+  EXPECT_TRUE(config.converts_each_alone("srgb_rec709_scene", "lin_rec709_scene"));
+  EXPECT_FALSE(config.converts_each_alone("srgb_rec709_scene", "lin_ap1_scene"));
+  EXPECT_FALSE(config.converts_each_alone("lin_rec709_scene", "lin_rec709_scene"));
+}
+
 TEST(ColorConfig, ChangesNoBitFromASpaceToItself) {
   const ColorConfig config;
   const Layers before = ramp({61, 7}, -3, 70000);

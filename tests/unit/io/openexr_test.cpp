@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
@@ -225,6 +226,43 @@ TEST_F(OpenExr, PremultipliesOnlyWhenAsked) {
   EXPECT_EQ(custom.image.find("G")->at(0, 0), 0.25f);
   EXPECT_EQ(custom.image.find("A")->at(0, 0), 0.5f);
   EXPECT_EQ(custom.image.find("stderr.R")->at(0, 0), 1);
+}
+
+TEST_F(OpenExr, WritesBlocksOfLinesAsTheLibraryReadsThem) {
+  const std::string name(60, 'n');
+  for (const PixelType type : {PixelType::Half, PixelType::Float}) {
+    Layers image = pattern({37, 53}, {"R", name, "B"});
+    image.layers[0].plane = Plane(image.size, 0.25f);
+    for (int x = 0; x < 37; ++x)
+      image.layers[2].plane.at(x, 50) = std::sin(1e4f * static_cast<float>(x));
+    write_image(folder / "a.exr", image, {.type = type, .attributes = {{name, "text"}}});
+    Imf::InputFile file((folder / "a.exr").c_str());
+    EXPECT_TRUE(file.isComplete());
+    EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+    EXPECT_NE(file.header().find(name), file.header().end());
+    for (const Layer& layer : coded(image, type).layers) {
+      Plane read(image.size);
+      Imf::FrameBuffer frame;
+      frame.insert(layer.name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(read.row(0)),
+                                          sizeof(float), sizeof(float) * read.stride()));
+      file.setFrameBuffer(frame);
+      file.readPixels(0, 52);
+      for (int y = 0; y < 53; ++y) {
+        for (int x = 0; x < 37; ++x) ASSERT_EQ(read.at(x, y), layer.plane.at(x, y));
+      }
+    }
+  }
+}
+
+TEST_F(OpenExr, PacksBlocksSideBySideToTheSameBytes) {
+  const Layers image = pattern({37, 400}, {"R", "G", "B"});
+  WriteOptions options;
+  write_image(folder / "one.exr", image, options);
+  options.run = [](int count, const std::function<void(int)>& task) {
+    for (int i = count - 1; i >= 0; --i) task(i);
+  };
+  write_image(folder / "other.exr", image, options);
+  EXPECT_TRUE(bytes_of(folder / "one.exr") == bytes_of(folder / "other.exr"));
 }
 
 TEST_F(OpenExr, RefusesMetadataThatIsTheFormatsOwn) {

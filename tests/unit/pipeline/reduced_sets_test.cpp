@@ -57,7 +57,8 @@ TEST(ReducedSets, MakeThePictureOfTheWholeSet) {
       "ball.exr }\n"
       "  - { bake: preview, env: sky, type: float, samples: 64, size: 30x24, out: flat.exr }\n";
   const std::string whole =
-      head + "  - { bake: preview, env: sky, samples: 16, mode: split-sum, out: all.exr }\n";
+      head +
+      "  - { bake: preview, env: sky, shape: contact, size: 32, mode: split-sum, out: all.exr }\n";
   const auto run = [&](const std::string& text, const char* out) {
     const Report report =
         run_plan(make_plan(read_pipeline(shop.write("p.yaml", text)), shop / out), Records::None);
