@@ -40,10 +40,7 @@ void MaterialOptions::declare(CLI::App& app) {
       ->type_name("WORD,...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  app.add_option(
-         "--packed", packed,
-         "of a lone image its layout: \"orm = ambient_occlusion, roughness, metallic\", one "
-         "of kiln list layouts, or FILE.yaml#NAME")
+  app.add_option("--packed", packed, "of a lone image its layout, as bake pack takes one")
       ->type_name("LAYOUT");
   reading.reserve(workflow_params().size());
   for (const Param<WorkflowSettings>& param : workflow_params()) {

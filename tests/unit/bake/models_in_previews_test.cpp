@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "kiln/brdf/models.h"
@@ -201,11 +202,11 @@ SurfaceChoice glass() {
   return surface;
 }
 
-// Mean over the pixels that show the body.
-double mean_shown(const Layers& image) {
+// Mean over the pixels that show the body, of columns from one to before another.
+double mean_shown(const Layers& image, int from = 0, int to = -1) {
   double shown = 0, pixels = 0;
   for (int y = 0; y < image.size.height; ++y) {
-    for (int x = 0; x < image.size.width; ++x) {
+    for (int x = from; x < (to < 0 ? image.size.width : to); ++x) {
       shown += image.find("R")->at(x, y);
       pixels += image.find("A")->at(x, y) > 0;
     }
@@ -213,20 +214,48 @@ double mean_shown(const Layers& image) {
   return shown / pixels;
 }
 
-TEST(GlassPreview, InAWhiteRoomIsWhiteHoweverRoughAndBent) {
-  for (const char* shape : {"flat", "sphere"}) {
-    for (const float roughness : {0.05f, 0.3f, 0.8f}) {
-      for (const float lean : {0.0f, 0.3f}) {
-        Uniform texel{.roughness = roughness};
-        texel.normal = {lean, 0, std::sqrt(1 - lean * lean)};
-        const Baked baked = bake_preview(
-            uniform_svbrdf(texel), test::constant_latlong(1),
-            {{"shape", shape}, {"size", "24"}, {"view", "40,0"}, {"samples", "128"}}, glass());
-        EXPECT_NEAR(mean_shown(picture_of(baked)), 1, 1e-2)
-            << shape << " " << roughness << " " << lean;
-        EXPECT_NEAR(figure(baked, "energy lost"), 1 - mean_shown(picture_of(baked)), 1e-4);
-      }
+struct Bent {
+  float roughness, lean;
+};
+constexpr std::array<Bent, 6> bent_glasses{
+    {{0.05f, 0}, {0.05f, 0.3f}, {0.3f, 0}, {0.3f, 0.3f}, {0.8f, 0}, {0.8f, 0.3f}}};
+
+Uniform texel_of(const Bent& bent, Size size) {
+  Uniform texel{.size = size, .roughness = bent.roughness};
+  texel.normal = {bent.lean, 0, std::sqrt(1 - bent.lean * bent.lean)};
+  return texel;
+}
+
+// Side by side on one plane, for every picture of glass integrates its albedos first.
+TEST(GlassPreview, OfAPlaneInAWhiteRoomIsWhiteHoweverRoughAndBent) {
+  constexpr int wide = 32, margin = 4;
+  const Size size{wide * static_cast<int>(bent_glasses.size()), 24};
+  Svbrdf strips = uniform_svbrdf({.size = size});
+  for (int x = 0; x < size.width; ++x) {
+    const Svbrdf one =
+        uniform_svbrdf(texel_of(bent_glasses[static_cast<size_t>(x / wide)], {1, 1}));
+    for (int y = 0; y < size.height; ++y) {
+      strips.roughness.at(x, y) = one.roughness.at(0, 0);
+      for (size_t c = 0; c < 3; ++c) strips.normal[c].at(x, y) = one.normal[c].at(0, 0);
     }
+  }
+  const Baked baked = bake_preview(strips, test::constant_latlong(1),
+                                   {{"view", "40,0"}, {"samples", "128"}}, glass());
+  for (size_t i = 0; i < bent_glasses.size(); ++i) {
+    const int from = wide * static_cast<int>(i);
+    EXPECT_NEAR(mean_shown(picture_of(baked), from + margin, from + wide - margin), 1, 1e-2)
+        << bent_glasses[i].roughness << " " << bent_glasses[i].lean;
+  }
+  EXPECT_NEAR(figure(baked, "energy lost"), 1 - mean_shown(picture_of(baked)), 1e-4);
+}
+
+TEST(GlassPreview, OfABallInAWhiteRoomIsWhiteHoweverRoughAndBent) {
+  for (const Bent& bent : bent_glasses) {
+    const Baked baked =
+        bake_preview(uniform_svbrdf(texel_of(bent, {16, 16})), test::constant_latlong(1),
+                     {{"shape", "sphere"}, {"size", "24"}, {"samples", "128"}}, glass());
+    EXPECT_NEAR(mean_shown(picture_of(baked)), 1, 1e-2) << bent.roughness << " " << bent.lean;
+    EXPECT_NEAR(figure(baked, "energy lost"), 1 - mean_shown(picture_of(baked)), 1e-4);
   }
 }
 

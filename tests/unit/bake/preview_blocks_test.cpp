@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "kiln/parallel/threads.h"
@@ -14,6 +15,8 @@ Layers small_lamp() {
     return dot(d, {0, 0.6, 0.8}) > 0.98 ? 80.0 : 0.1;
   });
 }
+
+constexpr double target_error = 0.02;
 
 // Smooth on the left, matt and dark on the right; no multiple of a block wide or high.
 Svbrdf two_halves() {
@@ -56,15 +59,25 @@ std::set<float> counts_of(const Layers& image, int x0, int y0) {
   return found;
 }
 
+// Tests that look at the same picture share it.
+const Baked& refined(const std::string& shape) {
+  static std::map<std::string, Baked> made;
+  const auto [found, fresh] = made.try_emplace(shape);
+  if (fresh) {
+    found->second = test::bake_preview(
+        two_halves(), small_lamp(),
+        {{"shape", shape}, {"size", "72x40"}, {"target_error", std::to_string(target_error)}});
+  }
+  return found->second;
+}
+
 TEST(TargetError, IsReachedInEveryBlockByItsOwnNumberOfSamples) {
   for (const char* shape : {"flat", "sphere"}) {
-    const Layers image =
-        test::preview(two_halves(), small_lamp(),
-                      {{"shape", shape}, {"size", "72x40"}, {"target_error", "0.01"}});
+    const Layers& image = refined(shape).artifacts.at(0).image;
     std::set<float> different;
     for (int y = 0; y < 40; y += 16) {
       for (int x = 0; x < 72; x += 16) {
-        EXPECT_LE(mean_error(image, x, y), 0.01);
+        EXPECT_LE(mean_error(image, x, y), target_error);
         const std::set<float> found = counts_of(image, x, y);
         EXPECT_LE(found.size(), 1u);
         different.insert(found.begin(), found.end());
@@ -76,25 +89,37 @@ TEST(TargetError, IsReachedInEveryBlockByItsOwnNumberOfSamples) {
 }
 
 TEST(TargetError, StopsAtTheFirstDoublingThatReachesIt) {
-  const test::Settings once = {{"samples", "256"}}, refined = {{"target_error", "1e9"}};
-  const Layers image = test::preview(two_halves(), small_lamp(), refined);
+  const test::Settings once = {{"samples", "16"}}, easy = {{"target_error", "1e9"}};
+  const Layers image = test::preview(two_halves(), small_lamp(), easy);
   EXPECT_EQ(test::mean(*image.find("samples.count")), 64);
   EXPECT_EQ(test::preview(two_halves(), small_lamp(), once).find("samples.count"), nullptr);
 }
 
+std::pair<float, float> extremes(const Plane& plane) {
+  std::pair<float, float> found{plane.at(0, 0), plane.at(0, 0)};
+  for (int y = 0; y < plane.height(); ++y) {
+    for (const float v : plane.texels_of_row(y)) {
+      found = {std::min(found.first, v), std::max(found.second, v)};
+    }
+  }
+  return found;
+}
+
 TEST(TargetError, GivesTheSameBytesForAnyNumberOfThreads) {
-  for (const char* bsdf : {"opaque", "glass"}) {
+  for (const auto& [bsdf, error] : {std::pair{"opaque", "0.05"}, {"glass", "0.12"}}) {
     SurfaceChoice surface;
     surface.bsdf = bsdf;
     const auto run = [&](int threads) {
       const ThreadLimit limit(threads);
       return test::bake_preview(two_halves(), small_lamp(),
-                                {{"samples", "16"}, {"target_error", "0.05"}}, surface)
+                                {{"samples", "16"}, {"target_error", error}}, surface)
           .artifacts.at(0)
           .image;
     };
     const Layers one = run(1), four = run(4);
     ASSERT_EQ(one.layers.size(), four.layers.size());
+    const auto [least, most] = extremes(*one.find("samples.count"));
+    EXPECT_LT(least, most) << bsdf;  // some blocks went on
     for (size_t l = 0; l < one.layers.size(); ++l) {
       for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 72; ++x) {
@@ -106,7 +131,7 @@ TEST(TargetError, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(TargetError, ThatIsOutOfReachIsToldAndNotPretended) {
-  const Baked baked = test::bake_preview(test::uniform_svbrdf({.size = {16, 16}}), small_lamp(),
+  const Baked baked = test::bake_preview(test::uniform_svbrdf({.size = {4, 3}}), small_lamp(),
                                          {{"target_error", "1e-9"}});
   ASSERT_EQ(baked.notes.size(), 1u);
   EXPECT_NE(baked.notes[0].find("100 % of the pixels"), std::string::npos) << baked.notes[0];
@@ -115,7 +140,7 @@ TEST(TargetError, ThatIsOutOfReachIsToldAndNotPretended) {
 }
 
 TEST(TargetError, CountsTheSamplesOnTheMean) {
-  const Baked baked = test::bake_preview(two_halves(), small_lamp(), {{"target_error", "0.01"}});
+  const Baked& baked = refined("flat");
   const Plane& counts = *baked.artifacts.at(0).image.find("samples.count");
   EXPECT_EQ(baked.figures.at(0).first, "samples");
   EXPECT_NEAR(baked.figures.at(0).second, test::mean(counts), 1e-6);
