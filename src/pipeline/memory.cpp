@@ -17,6 +17,7 @@ namespace {
 constexpr long long mebibyte = 1LL << 20;
 constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
 constexpr int resolved_planes = 11;
+constexpr int picture_planes = 8;  // colours and alpha, standard errors, samples
 constexpr long long most_of_plane = mebibyte / 4;
 constexpr int rows_of_block = 64;  // that decoders give at once
 
@@ -126,11 +127,15 @@ std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
 }
 
 RowCost cost_of_rows(const Task& task, Size set, int channels_read) {
+  if (task.product == Product::Picture) {
+    const bool keeps = task.needs.late_view && is_for_viewing(task.out);
+    return {set.width, channels_read + resolved_planes + picture_planes,
+            channels_read + resolved_planes, channels_read, keeps ? 4 * area(set) : 0};
+  }
   // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
   const bool resolved = task.needs.maps.resolved;
   const int planes = resolved ? 2 * channels_read + 3 * resolved_planes : 3 * channels_read;
-  const bool keeps = task.needs.late_view && is_for_viewing(task.out);
-  return {set.width, planes, 0, channels_read, keeps ? 4 * area(set) : 0};
+  return {set.width, planes, 0, channels_read};
 }
 
 }  // namespace kiln
