@@ -16,6 +16,7 @@ namespace {
 
 constexpr long long mebibyte = 1LL << 20;
 constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
+constexpr int picture_planes = 8;                    // colours and alpha, standard errors, samples
 constexpr long long most_of_plane = mebibyte / 4;
 constexpr int rows_of_block = 64;  // that decoders give at once
 
@@ -86,12 +87,17 @@ SetCost cost_of_set(const PlannedSet& set, const MapNeeds& needs) {
 RowCost cost_of_rows(const Plan& plan, const Task& task) {
   const MapNeeds& needs = task.needs.maps;
   const SetCost set = cost_of_set(plan.sets[*task.set], needs);
+  const auto of_texels = [&](double bytes) {
+    return static_cast<long long>(bytes * static_cast<double>(area(set.size)));
+  };
+  if (task.product == Product::Picture) {
+    const bool keeps = task.needs.late_view && is_for_viewing(task.out);
+    return {set.size.width, set.channels + set.planes + picture_planes, set.channels + set.planes,
+            set.channels, set.held + of_texels(keeps ? 4 : 0)};
+  }
   // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
   const int planes = needs.resolved ? 2 * set.channels + 3 * set.planes : 3 * set.channels;
-  const double views = task.needs.late_view && is_for_viewing(task.out) ? 1 : 0;
-  const auto kept =
-      static_cast<long long>((needs.held + views) * 4 * static_cast<double>(area(set.size)));
-  return {set.size.width, planes, 0, set.channels, set.held + kept};
+  return {set.size.width, planes, 0, set.channels, set.held + of_texels(4 * needs.held)};
 }
 
 long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands) {

@@ -2,6 +2,7 @@
 // A plane with a pixel a texel, made a band of rows at a time.
 #include <gtest/gtest.h>
 
+#include "kiln/math/hash.h"
 #include "kiln/parallel/rows.h"
 #include "support/scenes.h"
 
@@ -63,7 +64,7 @@ Svbrdf rows_of(const Svbrdf& whole, RowRange rows) {
 MapBands bands_of(const Svbrdf& set) {
   MapBands bands;
   bands.size = set.size;
-  bands.given.push_back({.slot = Slot::Anisotropy});
+  bands.given.emplace_back().slot = Slot::Anisotropy;
   bands.svbrdf = [&set](const MapRows& rows) { return rows_of(set, rows.rows); };
   return bands;
 }
