@@ -36,9 +36,10 @@ void turn_into(const Frame<F>& frame, AxesAround<F>& around) {
 /// normal the more the wider it is, and narrower as it is across when seen from the side. Of the
 /// variance of a lobe under a constant light it leaves 0.02 at 15 degrees from the normal, 0.04 at
 /// 30, 0.08 at 45 and 0.2 at 60, or less, whatever its width.
+/// Beyond 60 degrees, and below the narrowest lobe that there is, specular light is left to the
+/// samples by and by.
 /// @param wo        to the viewer, in the shading frame
-/// @param specular  reflectance of the lobe toward wo; it counts as 0 where no lobe of
-///                  ControlLobes is like the texel's
+/// @param specular  reflectance of the lobe toward wo
 /// @param diffuse   all else that is reflected
 template <class F>
 LightControl<F> make_light_control(const ControlLobes& lobes, const Frame<F>& frame,
@@ -46,7 +47,7 @@ LightControl<F> make_light_control(const ControlLobes& lobes, const Frame<F>& fr
                                    const Vec3<F>& diffuse) {
   LightControl<F> control;
   const F like = alpha * sqrt(wo.z);
-  const F usable = select(like > F(0.7 * ControlLobes::least_alpha), F(1), F(0));
+  const F usable = select(like > F(0.7 * ControlLobes::least_alpha), min(F(2) * wo.z, F(1)), F(0));
   const F mirrored = F(1) - alpha * sqrt(alpha);
   const Vec3<F> axis{-mirrored * wo.x, -mirrored * wo.y, fma(mirrored, wo.z - F(1), F(1))};
   control.lobe = lobes.lobes(frame.to_world(normalize(axis)), like);

@@ -35,6 +35,7 @@ struct Sampling {
   int most = 0;             ///< never more than these
   double target_error = 0;  ///< 0: no more than at first
   int seed = 0;
+  bool never_negative = false;  ///< what is estimated below 0 is noise, and stored as 0
 };
 
 /// Where a block lies and how its pixels are kept.
@@ -93,7 +94,8 @@ void sample_blocks(const Renderer& renderer, const Sampling& sampling, Layers& i
         const WideFloat scale(1.0f / static_cast<float>(std::max(range.last, 1)));
         for (Vec3<WideFloat>& mean : means) mean = mean * scale;
         const Estimate estimate = summarise(means);
-        store_color(image, 0, x, y, estimate.mean);
+        store_color(image, 0, x, y,
+                    sampling.never_negative ? not_negative(estimate.mean) : estimate.mean);
         store_color(image, 4, x, y, estimate.error);
       });
       const bool more = sampling.target_error > 0 && 2 * range.last <= sampling.most;

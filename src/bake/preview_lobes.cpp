@@ -66,6 +66,7 @@ void choose_lobe(const SurfaceChoice& surface, SurfaceStages& stages) {
               stages.add_lobe = add_lobe<Distribution, Masking>;
               stages.shape = shape_or_default<Distribution>(surface.distribution_shape);
               stages.anisotropic = Distribution<F>::anisotropic;
+              stages.alpha_is_width = Distribution<F>::alpha_is_width;
             });
 }
 

@@ -23,6 +23,11 @@ struct Estimate {
 /// Mean and standard error of the mean of independent repetitions.
 Estimate summarise(const std::array<Vec3<WideFloat>, repetitions>& means);
 
+inline Vec3<WideFloat> not_negative(const Vec3<WideFloat>& color) {
+  const WideFloat zero(0.0f);
+  return {max(color.x, zero), max(color.y, zero), max(color.z, zero)};
+}
+
 /// A hash of each pixel from x on.
 WideUint texel_hashes(int x, int y, int seed);
 

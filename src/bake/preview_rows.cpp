@@ -90,8 +90,9 @@ struct StagedShader {
   LightControl<F> control(const StagedPoint& point) const {
     const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
     const Vec3<F> diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
+    const F like_ggx(stages.alpha_is_width ? 1.0f : 0.0f);
     return make_light_control(*light->controls, point.frame, point.wo,
-                              sqrt(point.alpha_x * point.alpha_y), point.single_o,
+                              sqrt(point.alpha_x * point.alpha_y), point.single_o * like_ggx,
                               diffuse + point.total_o - point.single_o);
   }
   void add_points(const StagedPoint& point, const ScrambledPoints& points,
@@ -207,7 +208,8 @@ Layers estimate_picture(const Picture& picture, const ShadingInputs& inputs,
   Layers image = make_sampled_image(picture);
   const bool sampled = inputs.light != nullptr;
   const Sampling sampling{sampled ? plan.samples / directions : 0, plan.most / directions,
-                          sampled ? plan.target_error : 0, plan.seed};
+                          sampled ? plan.target_error : 0, plan.seed,
+                          sampled && inputs.light->fixed.negative == 0};
   const SobolPoints points = sobol_points_reversed(
       plan.target_error > 0 ? std::max(sampling.most, sampling.points) : sampling.points);
   const DistantLights lights = distant_lights(picture, inputs);

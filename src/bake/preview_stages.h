@@ -90,7 +90,8 @@ struct SurfaceStages {
   void (*couple)(const StagedPoint& point, DirectionBlock& block) = nullptr;
   FresnelChannel<float> numbers = {};
   float shape = 0;
-  bool anisotropic = true;  ///< the distribution has two widths
+  bool anisotropic = true;     ///< the distribution has two widths
+  bool alpha_is_width = true;  ///< of its slopes
 };
 
 /// @error Fault::Usage for names that are not listed or do not fit each other
