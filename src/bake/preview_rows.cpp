@@ -61,8 +61,8 @@ struct FusedShader {
     const F left = clamp(F(1) - max_component(total), F(0), F(1));
     const Vec3<F> diffuse = point.surface.diffuse.albedo(point.wo.z) * left * point.occlusion;
     const Ggx<F>& ggx = point.surface.ggx;
-    return make_light_control(*light->controls, point.frame, point.wo,
-                              sqrt(ggx.alpha_x * ggx.alpha_y), single, diffuse + total - single);
+    return make_light_control(*light->controls, point.frame, point.wo, ggx.alpha_x, ggx.alpha_y,
+                              single, diffuse + total - single);
   }
   Vec3<F> reflected(const Point& point, const DistantLight& distant) const {
     return reflect_distant(point, albedo, distant.toward, distant.irradiance);
@@ -91,9 +91,8 @@ struct StagedShader {
     const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
     const Vec3<F> diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
     const F like_ggx(stages.alpha_is_width ? 1.0f : 0.0f);
-    return make_light_control(*light->controls, point.frame, point.wo,
-                              sqrt(point.alpha_x * point.alpha_y), point.single_o * like_ggx,
-                              diffuse + point.total_o - point.single_o);
+    return make_light_control(*light->controls, point.frame, point.wo, point.alpha_x, point.alpha_y,
+                              point.single_o * like_ggx, diffuse + point.total_o - point.single_o);
   }
   void add_points(const StagedPoint& point, const ScrambledPoints& points,
                   RepetitionSums& sums) const {
