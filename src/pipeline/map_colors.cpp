@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -101,7 +102,7 @@ void look_up(const ColorCodes& codes, Layers& image) {
     for (int y = 0; y < image.size.height; ++y) {
       float* row = layer.plane.row(y);
       for (int x = 0; x < image.size.width; ++x) {
-        row[x] = codes[channel][static_cast<std::uint8_t>(row[x] * 255.0f + 0.5f)];
+        row[x] = codes[channel][static_cast<std::uint8_t>(std::floor(row[x] * 255.0f + 0.5f))];
       }
     }
   }
