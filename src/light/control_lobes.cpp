@@ -17,7 +17,7 @@ constexpr int cosine_rows = 32;
 
 // Rows and columns that hold what lies between the texels of the source, as it is looked up: along
 // a row straight lines are expanded exactly, from row to row they are sampled.
-constexpr int enough_rows = 2048, enough_columns = 512;
+constexpr int enough_rows = 1024, enough_columns = 512;
 
 // Even, so that texels do not straddle what is bent.
 int times_for(int found, int enough) {

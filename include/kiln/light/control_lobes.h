@@ -67,7 +67,7 @@ struct CosineMixture {
 /// @accuracy  as of Prefilter, 1e-5 rms of the mean radiance
 class ControlLobes {
  public:
-  static constexpr double least_alpha = 0.02;
+  static constexpr double least_alpha = 0.04;
 
   explicit ControlLobes(const Environment& environment);
 

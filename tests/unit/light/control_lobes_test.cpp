@@ -76,7 +76,7 @@ TEST(ControlLobes, IntegralsHoldForNodeAlignedImages) {
 TEST(ControlLobes, MixturesAreLikeTheLobeAsked) {
   const Environment environment(test::constant_environment({64, 32}, 1));
   const ControlLobes controls(environment);
-  for (const double alpha : {0.02, 0.05, 0.2, 0.6, 1.0}) {
+  for (const double alpha : {0.04, 0.1, 0.3, 0.6, 1.0}) {
     double integral = 0;
     for (int i = 0; i < 20000; ++i) {
       const double c = (i + 0.5) / 20000;
