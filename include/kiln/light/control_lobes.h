@@ -110,7 +110,9 @@ ControlLobes::Cell<F> ControlLobes::cell_of(const Vec3<F>& d, LaneIndex<F> grid)
   const F rows = table_at<F>(rows_.data(), grid);
   const F last_row = rows - F(1), last_column = F(2) * rows - F(1);
   const Vec2<F> uv = latlong_of(turn_.to_image(d));
-  const F across = uv.x * last_column, down = uv.y * last_row;
+  // NaN too is inside the grid.
+  const F across = min(select(uv.x > F(0), uv.x, F(0)), F(1)) * last_column;
+  const F down = min(select(uv.y > F(0), uv.y, F(0)), F(1)) * last_row;
   const F left = min(floor(across), last_column - F(1)), top = min(floor(down), last_row - F(1));
   const F tx = across - left, ty = down - top;
   const auto azimuth = [&](F column) {
