@@ -88,11 +88,10 @@ struct StagedShader {
     return make_staged_point(texel, placement, albedo, stages);
   }
   LightControl<F> control(const StagedPoint& point) const {
-    const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
-    const Vec3<F> diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
     const F like_ggx(stages.alpha_is_width ? 1.0f : 0.0f);
     return make_light_control(*light->controls, point.frame, point.wo, point.alpha_x, point.alpha_y,
-                              point.single_o * like_ggx, diffuse + point.total_o - point.single_o);
+                              point.single_o * like_ggx,
+                              diffuse_reflectance(point, stages) + point.total_o - point.single_o);
   }
   void add_points(const StagedPoint& point, const ScrambledPoints& points,
                   RepetitionSums& sums) const {

@@ -134,6 +134,11 @@ void add_points(const StagedPoint& point, const LightControl<F>& control,
   if (block.count > 0) add_block();
 }
 
+WideVec diffuse_reflectance(const StagedPoint& point, const SurfaceStages& stages) {
+  const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
+  return stages.diffuse_albedo(point) * left * point.occlusion;
+}
+
 WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
                         const AlbedoTable& table, const WideVec& toward,
                         const WideVec& irradiance) {
@@ -146,8 +151,7 @@ WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
 WideVec approximate(const StagedPoint& point, const SurfaceStages& stages, const Light& light) {
   const WideVec mirrored =
       engine_direction(point.wo, point.alpha_x, point.alpha_y, point.roughness);
-  const F left = clamp(F(1.0f) - max_component(point.total_o), F(0.0f), F(1.0f));
-  const WideVec diffuse = stages.diffuse_albedo(point) * left * point.occlusion;
+  const WideVec diffuse = diffuse_reflectance(point, stages);
   const WideVec specular = light.chain->lookup(point.frame.to_world(mirrored), point.roughness);
   return specular * point.total_o + light.irradiance->lookup(point.frame.z) * diffuse;
 }

@@ -18,6 +18,9 @@ void add_points(const StagedPoint& point, const LightControl<WideFloat>& control
                 const SurfaceStages& stages, const Environment& environment,
                 const AlbedoTable& table, const ScrambledPoints& points, RepetitionSums& sums);
 
+/// What the diffuse lobe reflects toward the viewer of what the specular one leaves.
+WideVec diffuse_reflectance(const StagedPoint& point, const SurfaceStages& stages);
+
 /// As estimate.h's: f E cos of a light far away.
 WideVec reflect_distant(const StagedPoint& point, const SurfaceStages& stages,
                         const AlbedoTable& table, const WideVec& toward, const WideVec& irradiance);

@@ -72,17 +72,17 @@ ControlLobes::ControlLobes(const Environment& environment) : turn_(environment.r
   for (size_t i = 0; i + 1 < lobes.size(); ++i) {
     add_grid(filtered, {lobes[i], lobes[i + 1]}, rows_for(lobes[i].alpha));
   }
-  add_grid(filtered, {cosine, cosine}, cosine_rows);
+  add_grid(filtered, {cosine}, cosine_rows);
 }
 
-void ControlLobes::add_grid(const Prefilter& filtered, const std::array<FilterLobe, 2>& lobes,
+void ControlLobes::add_grid(const Prefilter& filtered, const std::vector<FilterLobe>& lobes,
                             int rows) {
   const SphereGrid grid{.layout = SphereLayout::LatLong, .size = rows, .at_nodes = true};
   const size_t first = nodes_.size();
   rows_.push_back(static_cast<float>(rows));
   firsts_.push_back(static_cast<std::int32_t>(first));
   nodes_.resize(first + static_cast<size_t>(2 * rows) * static_cast<size_t>(rows) * node_numbers);
-  for (size_t width = 0; width < 2; ++width) {
+  for (size_t width = 0; width < lobes.size(); ++width) {
     const Layers image = filtered.filter(lobes[width], grid).front();
     for (int y = 0; y < rows; ++y) {
       float* row = nodes_.data() + first +

@@ -28,8 +28,6 @@ constexpr double hottest_share = 0.01;
 // Where sin(theta)^m would underflow to no good, see LegendreColumn.
 constexpr int highest_order = 1800;
 
-/// What the expansion leaves out. A texel whose share of a colour's power exceeds the limit would,
-/// through the cut of the expansion, ring visibly around itself.
 /// Shares of a texel's power and how far from its centre they lie [texel].
 struct Spread {
   std::vector<double> share, offset;
@@ -46,6 +44,8 @@ Spread spread_of(Across across) {
   return spread;
 }
 
+/// What the expansion leaves out. A texel whose share of a colour's power exceeds the limit would,
+/// through the cut of the expansion, ring visibly around itself.
 PointMasses masses_of(Size size, const std::vector<HotTexel>& texels, Across across) {
   const Spread spread = spread_of(across);
   const size_t parts = spread.share.size();

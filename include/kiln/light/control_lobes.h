@@ -94,7 +94,8 @@ class ControlLobes {
   template <class F>
   Vec3<F> light_of(const Cell<F>& cell, int width) const;
 
-  void add_grid(const Prefilter& filtered, const std::array<FilterLobe, 2>& lobes, int rows);
+  /// @param lobes  one or two
+  void add_grid(const Prefilter& filtered, const std::vector<FilterLobe>& lobes, int rows);
 
   Turn turn_;
   std::vector<float> alpha2_, per_integral_;  ///< of each width
