@@ -27,6 +27,14 @@ struct LightControl {
   Vec3<F> light() const { return specular * lobe.light + diffuse * cosine.light; }
 };
 
+/// g = 0.
+template <class F>
+LightControl<F> no_control() {
+  const Vec3<F> none{F(0), F(0), F(0)}, up{F(0), F(0), F(1)};
+  const AxesAround<F> around{{up, up, up, up}, {F(0), F(0), F(0), F(0)}};
+  return {none, none, {around, {F(1), F(1)}, {F(0), F(0)}, none}, {around, none}};
+}
+
 template <class F>
 void turn_into(const Frame<F>& frame, AxesAround<F>& around) {
   for (Vec3<F>& axis : around.axes) axis = frame.to_local(axis);

@@ -12,6 +12,7 @@
 #include "kiln/light/irradiance.h"
 #include "kiln/light/radiance.h"
 #include "kiln/light/specular_chain.h"
+#include "kiln/parallel/once.h"
 
 namespace kiln {
 
@@ -25,13 +26,19 @@ class Light {
   Fixed fixed;                             ///< what was found in the file
   std::vector<std::string> notes;          ///< how it was read
   std::optional<Environment> environment;  ///< when `sampled` was asked for
-  std::optional<ControlLobes> controls;    ///< then too
   std::optional<SpecularChain> chain;      ///< when `prefiltered` was
   std::optional<IrradianceMap> irradiance;
 
   /// What has to be summed for means, harmonics and convolutions: texels as point masses. Where
   /// the source is a lat-long image, these are its own.
   const Layers& masses() const { return spread ? *spread : latlong; }
+
+  /// Of the environment; made when first asked for, in about the time of a million directions.
+  const ControlLobes& controls() const;
+
+ private:
+  mutable Once controls_once_;
+  mutable std::optional<ControlLobes> controls_;
 };
 
 }  // namespace kiln

@@ -181,14 +181,15 @@ void bake_bands(const Settings& settings, const MapBands& maps, const ShadingInp
   file.image = make_layers({}, rendered_planes(settings));
   file.attributes = describe_file(settings, inputs);
   const auto sums = std::make_shared<PictureSums>(maps.size, settings.target_error);
-  sheet.make = [&maps, settings, inputs, sums](const MapRows& rows) {
+  sheet.make = [&maps, settings, lit = with_controls(inputs, settings, maps.size),
+                sums](const MapRows& rows) {
     const Size size{maps.size.width, rows.rows.count};
     const Picture band(maps.svbrdf(rows), {.size = size,
                                            .to_viewer = viewer_of(settings),
                                            .rotate_deg = settings.rotate,
                                            .first_row = rows.rows.first});
     std::vector<Layers> made;
-    made.push_back(render_band(band, inputs, settings, *sums));
+    made.push_back(render_band(band, lit, settings, *sums));
     return made;
   };
   if (settings.mode == PreviewBake::Mode::Difference) {

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "light_product.h"
 #include "preview_blocks.h"
 #include "preview_glass.h"
 
@@ -10,6 +11,10 @@ namespace kiln {
 namespace {
 
 using Settings = PreviewBake::Settings;
+
+// Directions of a picture: 32 x 32 texels with 64 each. Making control lobes takes as long as a
+// million; smaller pictures, thumbnails, are made sooner without.
+constexpr double least_controlled = 1 << 16;
 
 Layers render_reference(const Picture& picture, const ShadingInputs& inputs,
                         const Settings& settings, PictureSums& sums) {
@@ -44,6 +49,16 @@ void subtract_from(const Layers& image, Layers& colors) {
 
 bool is_glass(const ShadingInputs& inputs) { return inputs.surface.bsdf == "glass"; }
 
+ShadingInputs with_controls(ShadingInputs inputs, const Settings& settings, Size picture) {
+  const bool sampled = inputs.light != nullptr && inputs.light->environment &&
+                       settings.mode != PreviewBake::Mode::SplitSum && !is_glass(inputs);
+  const int samples = settings.target_error > 0 ? most_samples : settings.samples;
+  if (sampled && static_cast<double>(area(picture)) * samples >= least_controlled) {
+    inputs.controls = &inputs.light->controls();
+  }
+  return inputs;
+}
+
 std::vector<std::string> rendered_planes(const Settings& settings) {
   if (settings.mode == PreviewBake::Mode::SplitSum) return {"R", "G", "B", "A"};
   std::vector<std::string> names = {"R", "G", "B", "A", "stderr.R", "stderr.G", "stderr.B"};
@@ -65,7 +80,8 @@ Layers render_band(const Picture& band, const ShadingInputs& inputs, const Setti
 Rendered render_preview(const Picture& picture, const ShadingInputs& inputs,
                         const Settings& settings) {
   PictureSums sums(picture.size(), settings.target_error);
-  Layers image = render_band(picture, inputs, settings, sums);
+  Layers image =
+      render_band(picture, with_controls(inputs, settings, picture.size()), settings, sums);
   return {std::move(image), sums.facts()};
 }
 

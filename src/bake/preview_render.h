@@ -17,6 +17,11 @@ inline constexpr int most_samples = 1 << 14;
 
 bool is_glass(const ShadingInputs& inputs);
 
+/// With control lobes, unless the picture takes so few directions that it is made sooner without.
+/// @param picture  the whole of it, if it is made in bands
+ShadingInputs with_controls(ShadingInputs inputs, const PreviewBake::Settings& settings,
+                            Size picture);
+
 /// R G B A; where light is sampled stderr.R stderr.G stderr.B, and with a target error
 /// samples.count.
 std::vector<std::string> rendered_planes(const PreviewBake::Settings& settings);

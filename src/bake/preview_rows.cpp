@@ -40,6 +40,7 @@ DistantLights distant_lights(const Picture& picture, const ShadingInputs& inputs
 template <class Diffuse>
 struct FusedShader {
   const Light* light;
+  const ControlLobes* controls;
   const AlbedoTable& albedo;
   Energy energy;
 
@@ -56,13 +57,14 @@ struct FusedShader {
     }
   }
   LightControl<F> control(const Point& point) const {
+    if (controls == nullptr) return no_control<F>();
     const Vec3<F> single = single_reflectance(point);
     const Vec3<F> total = point.surface.specular_reflectance(point.terms_o);
     const F left = clamp(F(1) - max_component(total), F(0), F(1));
     const Vec3<F> diffuse = point.surface.diffuse.albedo(point.wo.z) * left * point.occlusion;
     const Ggx<F>& ggx = point.surface.ggx;
-    return make_light_control(*light->controls, point.frame, point.wo, ggx.alpha_x, ggx.alpha_y,
-                              single, diffuse + total - single);
+    return make_light_control(*controls, point.frame, point.wo, ggx.alpha_x, ggx.alpha_y, single,
+                              diffuse + total - single);
   }
   Vec3<F> reflected(const Point& point, const DistantLight& distant) const {
     return reflect_distant(point, albedo, distant.toward, distant.irradiance);
@@ -81,6 +83,7 @@ struct FusedShader {
 
 struct StagedShader {
   const Light* light;
+  const ControlLobes* controls;
   const AlbedoTable& albedo;
   SurfaceStages stages;
 
@@ -88,8 +91,9 @@ struct StagedShader {
     return make_staged_point(texel, placement, albedo, stages);
   }
   LightControl<F> control(const StagedPoint& point) const {
+    if (controls == nullptr) return no_control<F>();
     const F like_ggx(stages.alpha_is_width ? 1.0f : 0.0f);
-    return make_light_control(*light->controls, point.frame, point.wo, point.alpha_x, point.alpha_y,
+    return make_light_control(*controls, point.frame, point.wo, point.alpha_x, point.alpha_y,
                               point.single_o * like_ggx,
                               diffuse_reflectance(point, stages) + point.total_o - point.single_o);
   }
@@ -110,14 +114,14 @@ template <class Visit>
 void with_shader(const ShadingInputs& inputs, Visit&& visit) {
   const SurfaceChoice& surface = inputs.surface;
   if (!has_fused_loop(surface)) {
-    return visit(StagedShader{inputs.light, *inputs.albedo, make_stages(surface)});
+    return visit(StagedShader{inputs.light, inputs.controls, *inputs.albedo, make_stages(surface)});
   }
   const Energy energy = surface.energy == "none" ? Energy::Single : Energy::Multiscatter;
   bool known = false;
   Diffuses::for_each([&]<template <class> class Model>() {
     if (surface.diffuse != Model<float>::name) return;
     known = true;
-    visit(FusedShader<Model<F>>{inputs.light, *inputs.albedo, energy});
+    visit(FusedShader<Model<F>>{inputs.light, inputs.controls, *inputs.albedo, energy});
   });
   if (!known) {
     throw Error(Fault::Usage, unknown_name("diffuse", surface.diffuse, model_names("diffuse")));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kiln/bake/products.h"
+#include "kiln/light/control_lobes.h"
 #include "picture.h"
 #include "preview_lights.h"
 
@@ -13,6 +14,7 @@ struct ShadingInputs {
   const AlbedoTable* albedo;
   SurfaceChoice surface;
   std::vector<DirectionalLight> lights = {};
+  const ControlLobes* controls = nullptr;  ///< null: every direction counts as it is
 };
 
 /// How many directions, or paths, each pixel gets.

@@ -82,6 +82,11 @@ void take_other(SphereImage image, const LightSettings& settings, Light& light) 
 
 }  // namespace
 
+const ControlLobes& Light::controls() const {
+  controls_once_.ensure([&] { controls_.emplace(*environment); });
+  return *controls_;
+}
+
 LightMade make_light(SphereImage image, const LightSettings& settings) {
   auto light = std::make_shared<Light>();
   light->rotate_deg = settings.rotate_deg;
@@ -94,7 +99,6 @@ LightMade make_light(SphereImage image, const LightSettings& settings) {
   } else {
     take_other(std::move(image), settings, *light);
   }
-  if (light->environment) light->controls.emplace(*light->environment);
   if (settings.prefiltered) {
     const ChainOptions options{settings.size, settings.rotate_deg};
     light->chain.emplace(light->latlong, options);

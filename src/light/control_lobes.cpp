@@ -60,38 +60,51 @@ ControlLobes::ControlLobes(const Environment& environment) : turn_(environment.r
     const double alpha = std::min(1.0, least_alpha * std::exp2(i / widths_per_octave));
     lobes.push_back({.alpha = alpha, .masked = true});
     alpha2_.push_back(static_cast<float>(alpha * alpha));
+    if (i + 1 < widths) add_grid(rows_for(alpha));
   }
+  const int of_cosines = widths - 1;
+  add_grid(cosine_rows);
   const FilterLobe cosine{};
   std::vector<FilterLobe> all = lobes;
   all.push_back(cosine);
   const Layers source = looked_up(environment);
   const Prefilter filtered(source, all, Across::Straight);
-  for (const FilterLobe& lobe : lobes) {
+  for (int i = 0; i < widths; ++i) {
+    const FilterLobe& lobe = lobes[static_cast<size_t>(i)];
     per_integral_.push_back(static_cast<float>(1 / filtered.integral_of(lobe)));
+    std::vector<Place> places;
+    if (i > 0) places.push_back({i - 1, 1});
+    if (i + 1 < widths) places.push_back({i, 0});
+    fill(filtered, lobe, places);
   }
-  for (size_t i = 0; i + 1 < lobes.size(); ++i) {
-    add_grid(filtered, {lobes[i], lobes[i + 1]}, rows_for(lobes[i].alpha));
-  }
-  add_grid(filtered, {cosine}, cosine_rows);
+  fill(filtered, cosine, {{of_cosines, 0}});
 }
 
-void ControlLobes::add_grid(const Prefilter& filtered, const std::vector<FilterLobe>& lobes,
-                            int rows) {
-  const SphereGrid grid{.layout = SphereLayout::LatLong, .size = rows, .at_nodes = true};
-  const size_t first = nodes_.size();
+void ControlLobes::add_grid(int rows) {
   rows_.push_back(static_cast<float>(rows));
-  firsts_.push_back(static_cast<std::int32_t>(first));
-  nodes_.resize(first + static_cast<size_t>(2 * rows) * static_cast<size_t>(rows) * node_numbers);
-  for (size_t width = 0; width < lobes.size(); ++width) {
-    const Layers image = filtered.filter(lobes[width], grid).front();
-    for (int y = 0; y < rows; ++y) {
-      float* row = nodes_.data() + first +
-                   static_cast<size_t>(y) * static_cast<size_t>(2 * rows) * node_numbers +
-                   4 * width;
-      for (size_t c = 0; c < 3; ++c) {
-        const float* from = image.layers[c].plane.row(y);
-        for (int x = 0; x < 2 * rows; ++x) row[x * node_numbers + static_cast<int>(c)] = from[x];
-      }
+  firsts_.push_back(static_cast<std::int32_t>(nodes_.size()));
+  nodes_.resize(nodes_.size() +
+                static_cast<size_t>(2 * rows) * static_cast<size_t>(rows) * node_numbers);
+}
+
+void ControlLobes::fill(const Prefilter& filtered, const FilterLobe& lobe,
+                        const std::vector<Place>& places) {
+  std::vector<SphereGrid> grids;
+  grids.reserve(places.size());
+  for (const Place& place : places) {
+    grids.push_back({.layout = SphereLayout::LatLong,
+                     .size = static_cast<int>(rows_[static_cast<size_t>(place.grid)]),
+                     .at_nodes = true});
+  }
+  const std::vector<std::vector<Layers>> images = filtered.filter_each(lobe, grids);
+  for (size_t i = 0; i < places.size(); ++i) store(images[i].front(), places[i]);
+}
+
+void ControlLobes::store(const Layers& image, const Place& place) {
+  float* to = nodes_.data() + firsts_[static_cast<size_t>(place.grid)] + 4 * place.width;
+  for (int y = 0; y < image.size.height; ++y) {
+    for (int x = 0; x < image.size.width; ++x, to += node_numbers) {
+      for (size_t c = 0; c < 3; ++c) to[c] = image.layers[c].plane.at(x, y);
     }
   }
 }

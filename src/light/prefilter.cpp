@@ -145,6 +145,10 @@ struct Prefilter::Expanded {
     if (found == lobes.end()) throw Error(Fault::Internal, "a lobe was not announced");
     return kernels[static_cast<size_t>(found - lobes.begin())];
   }
+
+  /// What the convolution with the lobe and the texels left out of it make at a grid's samples.
+  std::vector<Layers> at_samples(const FilterLobe& lobe, const SphereField& field,
+                                 const SphereGrid& grid) const;
 };
 
 Prefilter::Prefilter(const Layers& latlong, const std::vector<FilterLobe>& lobes, Across across)
@@ -193,30 +197,46 @@ double Prefilter::integral_of(const FilterLobe& lobe) const {
   return expanded_->kernel_of(lobe).integral;
 }
 
-std::vector<Layers> Prefilter::filter(const FilterLobe& lobe, const SphereGrid& grid) const {
-  const ZonalKernel& kernel = expanded_->kernel_of(lobe);
-  const SphereField field = convolve(expanded_->expansion, expanded_->columns, kernel);
-  const auto scale = static_cast<float>(1 / kernel.integral);
+std::vector<Layers> Prefilter::Expanded::at_samples(const FilterLobe& lobe,
+                                                    const SphereField& field,
+                                                    const SphereGrid& grid) const {
+  const auto scale = static_cast<float>(1 / kernel_of(lobe).integral);
   const Size extent = grid.image_size();
   std::vector<Layers> images = blank_images(grid);
   for_rows(grid.images() * extent.height, [&](int row) {
     const int image = row / extent.height, y = row % extent.height;
     std::vector<Vec3<double>> directions;
     row_directions(grid, image, y, directions);
-    std::vector<MassSums> smooth(directions.size()), hot(directions.size(), MassSums{});
+    std::vector<MassSums> smooth(directions.size()), sharp(directions.size(), MassSums{});
     field.evaluate(directions, smooth);
-    add_masses(lobe, expanded_->hot, directions, hot);
+    add_masses(lobe, hot, directions, sharp);
     for (size_t c = 0; c < 3; ++c) {
       // Zero where a source without negative radiance came out below zero by rounding and the cut.
-      const float least = expanded_->never_negative[c] ? 0.0f : -INFINITY;
+      const float least = never_negative[c] ? 0.0f : -INFINITY;
       float* to = images[static_cast<size_t>(image)].layers[c].plane.row(y);
       for (size_t x = 0; x < directions.size(); ++x) {
-        to[x] = std::max(fma(hot[x][c], scale, smooth[x][c]) / smooth[x][3], least);
+        to[x] = std::max(fma(sharp[x][c], scale, smooth[x][c]) / smooth[x][3], least);
       }
     }
   });
-  if (expanded_->of_weights) divide(expanded_->of_weights->filter(lobe, grid), images);
+  if (of_weights) divide(of_weights->filter(lobe, grid), images);
   return images;
+}
+
+std::vector<std::vector<Layers>> Prefilter::filter_each(
+    const FilterLobe& lobe, const std::vector<SphereGrid>& grids) const {
+  const SphereField field =
+      convolve(expanded_->expansion, expanded_->columns, expanded_->kernel_of(lobe));
+  std::vector<std::vector<Layers>> filtered;
+  filtered.reserve(grids.size());
+  for (const SphereGrid& grid : grids) {
+    filtered.push_back(expanded_->at_samples(lobe, field, grid));
+  }
+  return filtered;
+}
+
+std::vector<Layers> Prefilter::filter(const FilterLobe& lobe, const SphereGrid& grid) const {
+  return std::move(filter_each(lobe, {grid}).front());
 }
 
 namespace {

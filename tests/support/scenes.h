@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <map>
 
 #include "kiln/bake/bake.h"
@@ -58,17 +59,44 @@ struct PreviewScene {
   LightMade light;
 };
 
+inline bool same_texels(const Plane& a, const Plane& b) {
+  bool same = a.size() == b.size();
+  for (int y = 0; same && y < a.height(); ++y) {
+    same = std::ranges::equal(a.texels_of_row(y), b.texels_of_row(y));
+  }
+  return same;
+}
+
+inline bool same_planes(const Layers& a, const Layers& b) {
+  return std::ranges::equal(a.layers, b.layers, [](const Layer& x, const Layer& y) {
+    return same_texels(x.plane, y.plane);
+  });
+}
+
+/// The light of an environment, kept for the next picture that is lit by the same.
+inline LightMade light_of(const Layers& latlong, bool prefiltered) {
+  static Layers kept;
+  static bool kept_prefiltered = false;
+  static LightMade made;
+  if (!made.light || prefiltered != kept_prefiltered || !same_planes(kept, latlong)) {
+    LightSettings settings;
+    settings.prefiltered = prefiltered;
+    settings.size = 32;
+    made = make_light(latlong_image(latlong), settings);
+    kept = latlong;
+    kept_prefiltered = prefiltered;
+  }
+  return made;
+}
+
 /// Bakes a preview of what `of` holds of a set, in `latlong` with the given settings; without an
 /// environment where that has no planes.
 inline PreviewScene bake_scene(Ingredients of, const Layers& latlong, const Settings& settings,
                                const SurfaceChoice& surface = {}) {
   const auto recipe = make_recipe("preview");
   for (const auto& [name, value] : settings) recipe->set(name, value);
-  LightSettings light_settings;
-  light_settings.prefiltered = recipe->needs().prefiltered;
-  light_settings.size = 32;
   LightMade made;
-  if (!latlong.layers.empty()) made = make_light(latlong_image(latlong), light_settings);
+  if (!latlong.layers.empty()) made = light_of(latlong, recipe->needs().prefiltered);
   static std::map<std::string, std::shared_ptr<const AlbedoTable>> albedos;
   auto& albedo = albedos[surface.distribution + surface.masking];
   if (!albedo && of.albedo == nullptr) albedo = make_albedo_table(surface);

@@ -20,8 +20,7 @@ struct LightSettings {
   Up up = Up::Y;                 ///< of these too
   double rotate_deg = 0;         ///< after both; positive turns +Z toward +X [degree]
   std::string fix = "neighbors";
-  bool sampled = true;             ///< make what estimates need: the distribution that directions
-                                   ///< are drawn from, and lobes whose light is known
+  bool sampled = true;             ///< make the distribution that directions are drawn from
   bool prefiltered = false;        ///< also make the specular chain and the irradiance
   int size = 256;                  ///< edge of a cube face of the chain [texel]
   std::vector<std::string> notes;  ///< how the image was read, repeated in what is made of it

@@ -94,8 +94,13 @@ class ControlLobes {
   template <class F>
   Vec3<F> light_of(const Cell<F>& cell, int width) const;
 
-  /// @param lobes  one or two
-  void add_grid(const Prefilter& filtered, const std::vector<FilterLobe>& lobes, int rows);
+  /// Where the nodes of a lobe are stored: as the first or the second width of a grid.
+  struct Place {
+    int grid, width;
+  };
+  void add_grid(int rows);
+  void fill(const Prefilter& filtered, const FilterLobe& lobe, const std::vector<Place>& places);
+  void store(const Layers& image, const Place& place);
 
   Turn turn_;
   std::vector<float> alpha2_, per_integral_;  ///< of each width

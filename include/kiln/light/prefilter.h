@@ -70,6 +70,10 @@ class Prefilter {
   /// The filtered environment at the samples of a grid: one image or six faces.
   std::vector<Layers> filter(const FilterLobe& lobe, const SphereGrid& grid) const;
 
+  /// The same for each of several grids, which share the work of the convolution.
+  std::vector<std::vector<Layers>> filter_each(const FilterLobe& lobe,
+                                               const std::vector<SphereGrid>& grids) const;
+
   /// Integral of K of one of the lobes over the sphere [sr].
   double integral_of(const FilterLobe& lobe) const;
 

@@ -152,8 +152,8 @@ TEST_P(PreviewBands, AreThePictureAndTheFiguresOfTheWholeSetToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryKind, PreviewBands, testing::ValuesIn(all_kinds()),
-                         [](const auto& info) {
-                           std::string name = info.param.name;
+                         [](const auto& of) {
+                           std::string name = of.param.name;
                            std::replace_if(
                                name.begin(), name.end(), [](char c) { return !std::isalnum(c); },
                                '_');
