@@ -116,7 +116,11 @@ Params<Settings> ConvertBake::params() {
       choice_param("format", &Settings::format, map_formats(), "of the files; by the maps' own")};
 }
 
-Needs ConvertBake::needs(const Settings&) { return {.maps = {.resolved = true}}; }
+Needs ConvertBake::needs(const Settings& settings) {
+  int planes = 1;  // of anisotropy, which may be there
+  for (const Slot slot : slots_made(settings)) planes += slot_facts(slot).channels;
+  return {.maps = {.resolved = true, .made = planes}};
+}
 
 Baked ConvertBake::bake(const Settings& settings, const Ingredients& ingredients) {
   const MapBands& maps = *ingredients.maps;

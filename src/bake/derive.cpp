@@ -145,8 +145,9 @@ Params<Settings> DeriveBake::params() {
 }
 
 Needs DeriveBake::needs(const Settings& settings) {
-  wanted_by(settings);
-  return {.albedo = true, .maps = {.resolved = true}};
+  int planes = 0;
+  for (const Wanted& one : wanted_by(settings)) planes += one.quantity->channels;
+  return {.albedo = true, .maps = {.resolved = true, .made = planes}};
 }
 
 Baked DeriveBake::bake(const Settings& settings, const Ingredients& ingredients) {

@@ -229,6 +229,7 @@ Needs PreviewBake::needs(const Settings& settings) {
               .own_lights = !settings.lights.empty()};
   if (is_made_in_bands(settings)) {
     needs.maps.resolved = true;
+    needs.maps.made = static_cast<int>(rendered_planes(settings).size());
     needs.late_view = settings.mode == Mode::Difference;
   } else {
     needs.material = true;

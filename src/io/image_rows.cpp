@@ -60,12 +60,15 @@ std::unique_ptr<io::RowSource> open_rows(const fs::path& path,
     if (format == "openexr") rows = io::openexr_rows(path, reading);
     if (!is_held(format) && format != "openexr") rows = io::openimageio_rows(path, format, reading);
   });
-  return rows ? std::move(rows) : std::make_unique<HeldRows>(read_image(path, limits, channels));
+  if (rows && !is_held_whole(rows->facts())) return rows;
+  return std::make_unique<HeldRows>(read_image(path, limits, channels));
 }
 
 }  // namespace
 
-bool is_held_whole(const FileFacts& facts) { return is_held(facts.format); }
+bool is_held_whole(const FileFacts& facts) {
+  return is_held(facts.format) || !facts.stored_as_shown;
+}
 
 ImageRows::ImageRows(const fs::path& path, const std::vector<std::string>& channels,
                      const ReadLimits& limits)

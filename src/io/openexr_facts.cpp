@@ -134,6 +134,7 @@ FileFacts openexr_facts(Imf::MultiPartInputFile& file, OpenexrUse use, const Rea
                    channels);
   }
   facts.size = {shown.max.x - shown.min.x + 1, shown.max.y - shown.min.y + 1};
+  facts.stored_as_shown = shown == stored;
   if (file.parts() > 1) {
     facts.notes.push_back(fmt::format("has {} parts; the first is read", file.parts()));
   }

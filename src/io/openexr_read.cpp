@@ -163,10 +163,6 @@ class OpenExrRows : public RowSource {
     packed_by_zip_ = has_zip_rows(part_->header());
   }
 
-  // Whether its first row is the first that is stored, and so on.
-  bool shows_what_is_stored() const {
-    return part_->header().displayWindow() == part_->header().dataWindow();
-  }
   const FileFacts& facts() const override { return facts_; }
   const std::vector<std::string>& names() const override { return names_; }
   int block_rows() const override {
@@ -225,11 +221,7 @@ ImageFile read_openexr(const std::filesystem::path& path, const Reading& reading
 }
 
 std::unique_ptr<RowSource> openexr_rows(const std::filesystem::path& path, const Reading& reading) {
-  return reading_openexr([&]() -> std::unique_ptr<RowSource> {
-    auto rows = std::make_unique<OpenExrRows>(path, reading);
-    if (!rows->shows_what_is_stored()) return nullptr;
-    return rows;
-  });
+  return reading_openexr([&] { return std::make_unique<OpenExrRows>(path, reading); });
 }
 
 }  // namespace kiln::io

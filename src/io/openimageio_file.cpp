@@ -76,6 +76,7 @@ FileFacts facts_of(const std::string& format, ByteView bytes, const Opened& open
   FileFacts facts;
   facts.format = format;
   facts.size = oriented(Size{stored.width, stored.height}, stored.orientation);
+  facts.stored_as_shown = stored.orientation == 1;
   facts.type = stored.type;
   for (int c = 0; c < stored.channels; ++c) {
     facts.channels.emplace_back(face.channel_name(opened.reader.get(), c));
@@ -236,7 +237,6 @@ class OpenImageIoRows : public RowSource {
         prepared_(prepare(format, contents_.view(), reading.limits)),
         rows_(prepared_.opened, pick(prepared_.facts.channels, reading), format) {}
 
-  bool is_upright() const { return prepared_.opened.stored.orientation == 1; }
   const FileFacts& facts() const override { return prepared_.facts; }
   const std::vector<std::string>& names() const override { return rows_.names(); }
   int block_rows() const override { return rows_of_block(prepared_.opened.stored); }
@@ -273,9 +273,7 @@ ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const R
 
 std::unique_ptr<RowSource> openimageio_rows(const std::filesystem::path& path,
                                             const std::string& format, const Reading& reading) {
-  auto rows = std::make_unique<OpenImageIoRows>(path, format, reading);
-  if (!rows->is_upright()) return nullptr;
-  return rows;
+  return std::make_unique<OpenImageIoRows>(path, format, reading);
 }
 
 }  // namespace kiln::io

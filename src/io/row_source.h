@@ -26,7 +26,7 @@ class RowSource {
   virtual void read(int first, int rows, Layers& image, int at) = 0;
 };
 
-/// Nothing where the file has to be held whole.
+/// Rows as they are stored: those of the image where facts().stored_as_shown.
 /// @error Fault::Input, without the path
 std::unique_ptr<RowSource> openexr_rows(const std::filesystem::path& path, const Reading& reading);
 std::unique_ptr<RowSource> openimageio_rows(const std::filesystem::path& path,

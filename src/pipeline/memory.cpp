@@ -15,8 +15,8 @@ namespace kiln {
 namespace {
 
 constexpr long long mebibyte = 1LL << 20;
-constexpr long long process_bytes = 170 * mebibyte;  // with the libraries that decode images
-constexpr int picture_planes = 8;                    // colours and alpha, standard errors, samples
+constexpr long long process_bytes = 190 * mebibyte;  // with the libraries that decode images
+constexpr double freed_and_kept = 1.6;  // memory of bands, with what the allocator has not returned
 constexpr long long most_of_plane = mebibyte / 4;
 constexpr int rows_of_block = 64;  // that decoders give at once
 
@@ -27,7 +27,7 @@ std::string text_of(long long bytes) {
 }
 
 RowCost cost_of_material(const SetCost& set) {
-  return {set.size.width, set.planes, 2 * set.planes, set.planes, set.held};
+  return {set.size.width, 1.0 * set.planes, 2.0 * set.planes, set.planes, set.held};
 }
 
 bool is_of_anisotropy(Slot slot) {
@@ -47,9 +47,10 @@ long long bytes_held(const PlannedMap& map, const FileFacts& facts, size_t chann
 
 long long bytes_of(const RowCost& cost, const BandPlan& bands) {
   const long long decoding = 5LL * cost.width * cost.channels * rows_of_block;
-  const long long planes = 1LL * cost.planes * bands.at_once +
-                           1LL * cost.working * std::min(bands.at_once, available_threads());
-  return process_bytes + decoding + 4LL * cost.width * bands.rows * planes + cost.held;
+  const double planes =
+      cost.planes * bands.at_once + cost.working * std::min(bands.at_once, available_threads());
+  return process_bytes + decoding + cost.held +
+         static_cast<long long>(4.0 * static_cast<double>(cost.width) * bands.rows * planes);
 }
 
 BandPlan plan_bands(const RowCost& cost, long long budget) {
@@ -87,17 +88,14 @@ SetCost cost_of_set(const PlannedSet& set, const MapNeeds& needs) {
 RowCost cost_of_rows(const Plan& plan, const Task& task) {
   const MapNeeds& needs = task.needs.maps;
   const SetCost set = cost_of_set(plan.sets[*task.set], needs);
-  const auto of_texels = [&](double bytes) {
-    return static_cast<long long>(bytes * static_cast<double>(area(set.size)));
-  };
-  if (task.product == Product::Picture) {
-    const bool keeps = task.needs.late_view && is_for_viewing(task.out);
-    return {set.size.width, set.channels + set.planes + picture_planes, set.channels + set.planes,
-            set.channels, set.held + of_texels(keeps ? 4 : 0)};
-  }
-  // What is read, the same picked and fitted, what it is resolved to, and what is made of it.
-  const int planes = needs.resolved ? 2 * set.channels + 3 * set.planes : 3 * set.channels;
-  return {set.size.width, planes, 0, set.channels, set.held + of_texels(4 * needs.held)};
+  const bool keeps_view = task.needs.late_view && is_for_viewing(task.out);
+  const double held = (needs.held + (keeps_view ? 1 : 0)) * 4 * static_cast<double>(area(set.size));
+  const int made = needs.made > 0 ? needs.made : set.channels;
+  // Every band was read and made; those being computed have maps picked and fitted too, and what
+  // these resolve to.
+  return {set.size.width, freed_and_kept * (set.channels + made),
+          freed_and_kept * (set.channels + (needs.resolved ? set.planes : 0)), set.channels,
+          set.held + static_cast<long long>(held)};
 }
 
 long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands) {

@@ -14,8 +14,8 @@ struct BandPlan {
 /// Memory of rows of a set, from what is read to what is written.
 struct RowCost {
   long long width = 0;  ///< of the set [texel]
-  int planes = 0;       ///< float planes of every band on its way
-  int working = 0;      ///< and of those that are being computed
+  double planes = 0;    ///< float planes of every band on its way
+  double working = 0;   ///< and of those that are being computed
   int channels = 0;     ///< of the files, which are decoded in blocks of rows of their own
   long long held = 0;   ///< beside the bands, until the last is made [byte]
 };

@@ -49,6 +49,7 @@ struct BakeFacts {
 struct MapNeeds {
   bool resolved = false;          ///< as one BRDF per texel
   std::vector<Slot> stored = {};  ///< as stored, where they are given
+  int made = 0;                   ///< planes that are made of them; 0: as many as are read
   double held = 0;                ///< planes of the set's size that are held beside the bands
 
   bool any() const { return resolved || !stored.empty(); }

@@ -55,6 +55,7 @@ struct FileFacts {
   bool node_aligned = false;       ///< an environment with samples on its borders
   Attributes attributes;           ///< text metadata, of EXR, HDR, PNG, TIFF, KTX and .env
   std::vector<std::string> notes;  ///< what had to be decided or repaired while reading
+  bool stored_as_shown = true;     ///< its rows and columns are those that are stored, in order
 };
 
 struct ImageFile {

@@ -12,7 +12,7 @@ namespace io {
 class RowSource;
 }
 
-/// Whether ImageRows holds such a file whole, by its format alone: HDR, DDS, KTX, .npy and .env.
+/// Whether ImageRows holds such a file whole.
 bool is_held_whole(const FileFacts& facts);
 
 /// An image file that is read from its first row to its last, some rows at a time: the same values

@@ -37,6 +37,7 @@ TEST_F(Tiff, IsTurnedUprightFromEveryOrientation) {
     }
     EXPECT_EQ(upright, "abcdef");
     EXPECT_EQ(file.facts.notes.empty(), orientation == 1);
+    EXPECT_EQ(file.facts.stored_as_shown, orientation == 1);
   }
 }
 
