@@ -7,11 +7,12 @@
 #include "kiln/image/compare.h"
 #include "kiln/io/image_file.h"
 #include "support/command.h"
+#include "support/places.h"
 
 namespace kiln {
 namespace {
 
-const std::filesystem::path source = KILN_SOURCE_DIR;
+const std::filesystem::path source = test::source_folder();
 const std::string demo = (source / "pipelines/demo.yaml").string();
 const std::vector<std::string> sets = {"brushed_steel", "glazed_tiles", "rusted_iron",
                                        "woven_fabric", "painted_panel"};

@@ -7,6 +7,7 @@
 #include "kiln/image/compare.h"
 #include "kiln/io/image_file.h"
 #include "support/command.h"
+#include "support/places.h"
 #include "support/real_data.h"
 
 namespace kiln {
@@ -14,8 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string folder_pipeline =
-    (std::filesystem::path(KILN_SOURCE_DIR) / "pipelines/folder.yaml").string();
+const std::string folder_pipeline = (test::source_folder() / "pipelines/folder.yaml").string();
 
 struct Baked {
   test::Outcome run;

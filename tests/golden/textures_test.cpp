@@ -10,6 +10,7 @@
 #include "environments.h"
 #include "kiln/image/projection.h"
 #include "kiln/io/image_file.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 #include "surface.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path shipped = fs::path(KILN_SOURCE_DIR) / "textures";
+const fs::path shipped = test::source_folder() / "textures";
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

@@ -7,12 +7,13 @@
 #include <iostream>
 
 #include "rules.h"
+#include "support/places.h"
 
 namespace kiln::test {
 namespace {
 
 const House& this_house() {
-  static const House house = read_house(KILN_SOURCE_DIR, KILN_BINARY_DIR "/house.txt");
+  static const House house = read_house(source_folder(), build_folder() / "house.txt");
   return house;
 }
 

@@ -7,13 +7,15 @@
 #include <filesystem>
 #include <optional>
 
+#include "support/places.h"
+
 namespace kiln::test {
 
 /// The folder of real scans and reference values: $KILN_DATA, else `shared` beside the checkout.
 inline std::optional<std::filesystem::path> real_data() {
   const char* set = std::getenv("KILN_DATA");
   const std::filesystem::path folder =
-      set ? std::filesystem::path(set) : std::filesystem::path(KILN_SOURCE_DIR) / ".." / "shared";
+      set ? std::filesystem::path(set) : source_folder() / ".." / "shared";
   if (std::filesystem::is_directory(folder / "data")) return folder;
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 
 #include "kiln/image/layers.h"
 #include "support/command.h"
+#include "support/places.h"
 
 namespace kiln {
 namespace {
@@ -175,7 +176,7 @@ TEST(PreviewVerb, IsLitByLightsAloneOrBesideAnEnvironment) {
 
 TEST(PreviewVerb, ShowsDifferencesInFalseColoursAndWritesTheirNumbers) {
   const Workshop shop;
-  const auto studio = std::filesystem::path(KILN_SOURCE_DIR) / "textures/env/studio.exr";
+  const auto studio = test::source_folder() / "textures/env/studio.exr";
   shop.paint_set("rock");
   const auto made = [&](const char* name) {
     return kiln(shop, {"preview", (shop / "rock").string(), "--env", studio.string(), "--samples",

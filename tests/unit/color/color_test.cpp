@@ -13,6 +13,7 @@
 
 #include "kiln/core/error.h"
 #include "support/faults.h"
+#include "support/places.h"
 #include "support/real_data.h"
 
 namespace kiln {
@@ -62,7 +63,7 @@ Layers ramp(Size size, double from, double to) {
 }
 
 TEST(BuiltinColorConfig, IsTheShippedFileWordForWord) {
-  std::ifstream file(std::string(KILN_SOURCE_DIR) + "/textures/kiln.ocio", std::ios::binary);
+  std::ifstream file(test::source_folder() / "textures/kiln.ocio", std::ios::binary);
   const std::string shipped((std::istreambuf_iterator<char>(file)), {});
   EXPECT_FALSE(shipped.empty());
   EXPECT_EQ(builtin_color_config(), shipped);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "image_folder.h"
+#include "support/places.h"
 
 namespace kiln {
 namespace {
@@ -47,14 +48,14 @@ TEST_F(Module, SaysWhereItWasLookedFor) {
 }
 
 TEST_F(Module, IsFoundByTheEnvironment) {
-  const Outcome outcome =
-      run_elsewhere("KILN_MODULE_PATH=" KILN_BINARY_DIR "/lib/kiln", needs_module);
+  const Outcome outcome = run_elsewhere(
+      "KILN_MODULE_PATH=" + (test::build_folder() / "lib/kiln").string(), needs_module);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
 }
 
 TEST_F(Module, IsFoundBesideTheProgram) {
   fs::create_directories(folder / "lib");
-  fs::create_directory_symlink(KILN_BINARY_DIR "/lib/kiln", folder / "lib" / "kiln");
+  fs::create_directory_symlink(test::build_folder() / "lib/kiln", folder / "lib" / "kiln");
   const Outcome outcome = run_elsewhere("KILN_MODULE_PATH=", needs_module);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
 }

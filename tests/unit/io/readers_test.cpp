@@ -10,6 +10,7 @@
 
 #include "kiln/io/texture_writer.h"
 #include "support/outside_command.h"
+#include "support/places.h"
 #include "texture_pattern.h"
 
 // Every container with a reader outside the project, read back by it. What is not installed skips.
@@ -176,19 +177,22 @@ TEST_F(Readers, NvddsinfoTellsFormatFacesAndLevelsOfDds) {
   }
 }
 
+fs::path readers_folder() { return test::source_folder() / "build/readers"; }
+
 class KtxParse : public Readers {
  protected:
   void SetUp() override {
     node_ = program("node");
     if (node_.empty()) GTEST_SKIP() << "no node";
-    if (!fs::is_directory(fs::path(KILN_READERS) / "node_modules" / "ktx-parse")) {
+    if (!fs::is_directory(readers_folder() / "node_modules" / "ktx-parse")) {
       GTEST_SKIP() << "no ktx-parse: scripts/readers.sh puts it into build/readers";
     }
   }
 
   nlohmann::json parsed(const std::string& name) const {
-    const std::string script = KILN_SOURCE_DIR "/tests/readers/ktx2.mjs";
-    const OutsideOutcome outcome = run({node_, script, KILN_READERS, (folder / name).string()});
+    const fs::path script = test::source_folder() / "tests/readers/ktx2.mjs";
+    const OutsideOutcome outcome =
+        run({node_, script.string(), readers_folder().string(), (folder / name).string()});
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     return nlohmann::json::parse(outcome.text, nullptr, false);
   }
