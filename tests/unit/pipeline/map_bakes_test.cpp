@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using test::narrow_limits;
 using test::text_of;
 using test::Workshop;
 using testing::Contains;
@@ -241,7 +242,7 @@ TEST(MapBakes, MakeTheSameBytesForEveryMemoryBudget) {
   paint_set(shop);
   const std::string bake = "bake: derive, quantities: \"f0,alpha,directional_albedo\", out: ";
   expect_baked(run(shop, bake + "wide"));
-  expect_baked(run(shop, bake + "narrow", "rock", "limits: { memory: 191MiB }\n"));
+  expect_baked(run(shop, bake + "narrow", "rock", narrow_limits));
   for (const char* name : {"f0.exr", "alpha.exr", "directional_albedo_60.exr"}) {
     EXPECT_EQ(text_of(shop / "out/wide" / name), text_of(shop / "out/narrow" / name)) << name;
     EXPECT_FALSE(text_of(shop / "out/wide" / name).empty());
