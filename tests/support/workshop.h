@@ -14,7 +14,8 @@
 
 namespace kiln::test {
 
-/// A budget of a pipeline that leaves bands of a few rows: little more than the process takes itself.
+/// A budget of a pipeline that leaves bands of a few rows: little more than the process takes
+/// itself.
 inline constexpr const char* narrow_limits = "limits: { memory: 191MiB }\n";
 
 /// A fresh folder for the length of a test, with ways to put small files into it.

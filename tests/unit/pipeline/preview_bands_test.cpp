@@ -66,8 +66,7 @@ TEST(FlatPreviews, AreTheSameBytesForEveryMemoryBudgetInEveryFormat) {
   }
   bakes += line("target_error: 0.001, out: t.exr") + line("mode: split-sum, out: s.exr");
   const Report wide = run_plan(plan_of(shop, bakes, "wide"), Records::None);
-  const Report narrow =
-      run_plan(plan_of(shop, bakes, "narrow", narrow_limits), Records::None);
+  const Report narrow = run_plan(plan_of(shop, bakes, "narrow", narrow_limits), Records::None);
   for (size_t i = 0; i < wide.tasks.size(); ++i) {
     const TaskRecord &a = wide.tasks[i], &b = narrow.tasks[i];
     ASSERT_FALSE(a.fault) << a.fault->what();
