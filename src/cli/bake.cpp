@@ -7,7 +7,7 @@
 #include "help.h"
 #include "kiln/core/error.h"
 #include "material_options.h"
-#include "one_task.h"
+#include "one_bake.h"
 #include "verb.h"
 
 namespace kiln {
@@ -33,8 +33,8 @@ int run(const BakeArguments& arguments, const Globals& globals) {
   }
   pipeline.bakes.push_back(arguments.options->choice(std::move(keys)));
   arguments.material.add_to(pipeline);
-  require_one_set(pipeline);
-  return run_one_task(std::move(pipeline), arguments.output, globals);
+  require_names_for_sets(pipeline, arguments.output);
+  return run_one_bake(std::move(pipeline), arguments.output, globals);
 }
 
 std::string output_text(Product product) {

@@ -3,7 +3,7 @@
 
 #include "environment_options.h"
 #include "kiln/core/error.h"
-#include "one_task.h"
+#include "one_bake.h"
 #include "verb.h"
 
 namespace kiln {
@@ -20,7 +20,7 @@ int run(const EnvArguments& arguments, const Globals& globals) {
   Pipeline pipeline;
   pipeline.environments.push_back(arguments.environment.choice());
   pipeline.bakes.push_back(arguments.options->choice({{"env", "env"}}));
-  return run_one_task(std::move(pipeline), arguments.output, globals);
+  return run_one_bake(std::move(pipeline), arguments.output, globals);
 }
 
 Action declare(CLI::App& app) {

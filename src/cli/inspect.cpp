@@ -8,8 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "console.h"
 #include "kiln/core/error.h"
-#include "kiln/io/image_file.h"
+#include "kiln/io/image_rows.h"
 #include "kiln/material/slots.h"
 #include "material_options.h"
 #include "verb.h"
@@ -20,11 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+// Of the finite texels.
 struct ChannelFacts {
   std::string name;
   float min = std::numeric_limits<float>::infinity();
   float max = -std::numeric_limits<float>::infinity();
-  double mean = 0;  ///< of the finite texels
+  double sum = 0;
+  long long count = 0;
+
+  double mean() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
 };
 
 /// What a file, or a channel of it, was taken for.
@@ -42,21 +47,28 @@ struct Inspected {
   Oddities oddities;
 };
 
-ChannelFacts measure(const Layer& layer) {
-  ChannelFacts facts{layer.name};
-  long long finite = 0;
-  double sum = 0;
-  for (int y = 0; y < layer.plane.height(); ++y) {
-    for (const float value : layer.plane.texels_of_row(y)) {
+void add_texels(const Plane& plane, ChannelFacts& facts) {
+  for (int y = 0; y < plane.height(); ++y) {
+    for (const float value : plane.texels_of_row(y)) {
       if (!std::isfinite(value)) continue;
       facts.min = std::min(facts.min, value);
       facts.max = std::max(facts.max, value);
-      sum += value;
-      ++finite;
+      facts.sum += value;
+      ++facts.count;
     }
   }
-  facts.mean = finite > 0 ? sum / static_cast<double>(finite) : 0;
-  return facts;
+}
+
+void add_rows(const Layers& rows, Inspected& inspected) {
+  inspected.channels.resize(rows.layers.size());
+  for (size_t i = 0; i < rows.layers.size(); ++i) {
+    inspected.channels[i].name = rows.layers[i].name;
+    add_texels(rows.layers[i].plane, inspected.channels[i]);
+  }
+  const Oddities found = count_oddities(rows);
+  inspected.oddities.nan += found.nan;
+  inspected.oddities.inf += found.inf;
+  inspected.oddities.negative += found.negative;
 }
 
 std::string assumed_space(const PlannedMap& map, PixelType type) {
@@ -66,16 +78,17 @@ std::string assumed_space(const PlannedMap& map, PixelType type) {
                                                              : "srgb_rec709_scene";
 }
 
-Inspected inspected_image(const fs::path& path, ImageFile file) {
+Inspected inspected_rows(const fs::path& path, ImageRows source) {
+  constexpr int rows_at_once = 64;
   Inspected inspected;
   inspected.file = path.string();
-  inspected.facts = std::move(file.facts);
-  inspected.oddities = count_oddities(file.image);
-  for (const Layer& layer : file.image.layers) inspected.channels.push_back(measure(layer));
+  const int height = source.facts().size.height;
+  for (int y = 0; y < height; y += rows_at_once) {
+    add_rows(source.next(std::min(rows_at_once, height - y)), inspected);
+  }
+  inspected.facts = source.facts();
   return inspected;
 }
-
-Inspected inspect_file(const fs::path& path) { return inspected_image(path, read_image(path)); }
 
 // ", times 0.5, plus 0.5", or nothing.
 std::string scaled_text(const SlotDecoding& decoding) {
@@ -101,25 +114,34 @@ void print_constants(const PlannedSet& set) {
   if (wrap != Wrap::Repeat) fmt::print("  wrap: {}\n", wrap_names[static_cast<size_t>(wrap)]);
 }
 
-std::vector<Inspected> inspect_set(const PlannedSet& set) {
-  if (set.fault) throw Error(*set.fault);
-  std::vector<Inspected> list;
+std::vector<PlannedMap> maps_in(const PlannedSet& set, const fs::path& path) {
+  std::vector<PlannedMap> maps;
   for (const PlannedMap& map : set.maps) {
-    if (map.path.empty()) continue;
-    const std::string path = map.path.string();
-    auto found = std::find_if(list.begin(), list.end(),
-                              [&](const Inspected& other) { return other.file == path; });
-    if (found == list.end()) {
-      found = list.insert(list.end(),
-                          inspected_image(map.path, map.embedded.bytes ? read_image(map.embedded)
-                                                                       : read_image(map.path)));
-    }
-    if (map.if_present && !has_channels(found->facts.channels, map.channels)) continue;
-    found->uses.push_back({fmt::format("{}[{}]", slot_name(map.slot), map.channels),
-                           map.reason + scaled_text(map.decoding),
-                           assumed_space(map, found->facts.type)});
+    if (map.path == path) maps.push_back(map);
   }
-  return list;
+  return maps;
+}
+
+std::vector<fs::path> files_of(const PlannedSet& set) {
+  std::vector<fs::path> files;
+  for (const PlannedMap& map : set.maps) {
+    if (map.path.empty() || std::count(files.begin(), files.end(), map.path) > 0) continue;
+    files.push_back(map.path);
+  }
+  return files;
+}
+
+Inspected inspected_maps(const std::vector<PlannedMap>& maps) {
+  const PlannedMap& first = maps.front();
+  Inspected inspected = inspected_rows(
+      first.path, first.embedded.bytes ? ImageRows(first.embedded) : ImageRows(first.path));
+  for (const PlannedMap& map : maps) {
+    if (map.if_present && !has_channels(inspected.facts.channels, map.channels)) continue;
+    inspected.uses.push_back({fmt::format("{}[{}]", slot_name(map.slot), map.channels),
+                              map.reason + scaled_text(map.decoding),
+                              assumed_space(map, inspected.facts.type)});
+  }
+  return inspected;
 }
 
 void print_text(const Inspected& inspected) {
@@ -132,7 +154,7 @@ void print_text(const Inspected& inspected) {
   }
   for (const ChannelFacts& channel : inspected.channels) {
     fmt::print("  {:<10} min {:<12.6g} mean {:<12.6g} max {:.6g}\n", channel.name, channel.min,
-               channel.mean, channel.max);
+               channel.mean(), channel.max);
   }
   const Oddities& odd = inspected.oddities;
   if (odd.nan + odd.inf + odd.negative > 0) {
@@ -147,7 +169,7 @@ Json to_json(const Inspected& inspected) {
   for (const ChannelFacts& channel : inspected.channels) {
     channels.push_back({{"name", channel.name},
                         {"min", channel.min},
-                        {"mean", channel.mean},
+                        {"mean", channel.mean()},
                         {"max", channel.max}});
   }
   Json uses = Json::array();
@@ -178,46 +200,86 @@ bool is_material(const fs::path& path) {
          extension == ".json" || is_material_document(path);
 }
 
-std::vector<Inspected> inspect_material(const MaterialOptions& options, const Globals& globals) {
-  Pipeline pipeline;
-  options.add_to(pipeline);
-  std::vector<Inspected> all;
-  for (const PlannedSet& set : planned_sets(pipeline)) {
-    if (!globals.json) {
-      fmt::print("set {}: {} ({})\n", set.name, workflow_name(set.reading.workflow),
-                 set.workflow_reason);
-      for (const IgnoredFile& file : set.ignored) {
-        fmt::print("  not used: {}: {}\n", file.file, file.reason);
+void print_heading(const PlannedSet& set) {
+  fmt::print("set {}: {} ({})\n", set.name, workflow_name(set.reading.workflow),
+             set.workflow_reason);
+  for (const IgnoredFile& file : set.ignored) {
+    fmt::print("  not used: {}: {}\n", file.file, file.reason);
+  }
+  for (const std::string& warning : set.warnings) fmt::print("  warning: {}\n", warning);
+  print_constants(set);
+}
+
+// Prints what is asked for, or gathers it; what cannot be read is told, and costs nothing else.
+class Inspection {
+ public:
+  explicit Inspection(const Globals& globals) : is_json_(globals.json) {}
+
+  void file(const fs::path& path) {
+    attempt([&] { keep(inspected_rows(path, ImageRows(path))); });
+  }
+
+  void material(const MaterialOptions& options) {
+    attempt([&] {
+      Pipeline pipeline;
+      options.add_to(pipeline);
+      for (const PlannedSet& set : planned_sets(pipeline)) {
+        attempt([&] { this->set(set); });
       }
-      for (const std::string& warning : set.warnings) fmt::print("  warning: {}\n", warning);
-      print_constants(set);
-    }
-    for (Inspected& inspected : inspect_set(set)) {
-      if (!globals.json) print_text(inspected);
-      all.push_back(std::move(inspected));
+    });
+  }
+
+  // The first error's, where there was one.
+  int end() const {
+    if (is_json_) fmt::print("{}\n", json_.dump(2));
+    return code_;
+  }
+
+ private:
+  void set(const PlannedSet& set) {
+    if (set.fault) throw Error(*set.fault);
+    if (!is_json_) print_heading(set);
+    for (const fs::path& path : files_of(set)) {
+      attempt([&] { keep(inspected_maps(maps_in(set, path))); });
     }
   }
-  return all;
-}
+
+  void keep(const Inspected& inspected) {
+    if (is_json_) {
+      json_.push_back(to_json(inspected));
+    } else {
+      print_text(inspected);
+    }
+  }
+
+  template <class Work>
+  void attempt(Work&& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      print_error(error.what());
+      if (code_ == 0) code_ = exit_code(error.fault());
+    }
+  }
+
+  bool is_json_;
+  Json json_ = Json::array();
+  int code_ = 0;
+};
 
 int run(const InspectArguments& arguments, const Globals& globals) {
   if (arguments.paths.empty()) throw Error(Fault::Usage, "expected a FILE or a MATERIAL");
-  Json json = Json::array();
+  Inspection inspection(globals);
   for (const std::string& path : arguments.paths) {
     if (!is_material(path) && arguments.material.packed.empty()) {
-      const Inspected inspected = inspect_file(path);
-      if (!globals.json) print_text(inspected);
-      json.push_back(to_json(inspected));
+      inspection.file(path);
       continue;
     }
     MaterialOptions material = arguments.material;
     material.path = path;
-    for (const Inspected& inspected : inspect_material(material, globals)) {
-      json.push_back(to_json(inspected));
-    }
+    inspection.material(material);
   }
-  if (globals.json) fmt::print("{}\n", json.dump(2));
-  return 0;
+  return inspection.end();
 }
 
 Action declare(CLI::App& app) {

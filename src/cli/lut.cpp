@@ -12,7 +12,7 @@
 #include "kiln/core/error.h"
 #include "kiln/core/param.h"
 #include "kiln/io/image_file.h"
-#include "one_task.h"
+#include "one_bake.h"
 #include "verb.h"
 
 namespace kiln {
@@ -103,7 +103,7 @@ int run(const LutArguments& arguments, const Globals& globals) {
     pipeline.bakes.push_back(arguments.options->choice({{"table", arguments.table}}));
     Globals quieter = globals;
     quieter.quiet = globals.quiet || !arguments.snippet.empty();
-    const int code = run_one_task(std::move(pipeline), arguments.output, quieter);
+    const int code = run_one_bake(std::move(pipeline), arguments.output, quieter);
     if (code != 0) return code;
   }
   return arguments.snippet.empty() ? 0 : print_snippet(arguments);

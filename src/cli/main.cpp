@@ -6,18 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "console.h"
 #include "kiln/core/error.h"
 #include "verb.h"
 
 namespace {
 
-// One line of stderr for each line of a message.
 int complain(const std::string& message, int code) {
-  for (size_t begin = 0; begin <= message.size();) {
-    const size_t end = std::min(message.find('\n', begin), message.size());
-    std::fprintf(stderr, "kiln: error: %s\n", message.substr(begin, end - begin).c_str());
-    begin = end + 1;
-  }
+  kiln::print_error(message);
   return code;
 }
 

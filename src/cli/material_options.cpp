@@ -83,15 +83,18 @@ void MaterialOptions::add_to(Pipeline& pipeline) const {
   pipeline.sets.push_back(std::move(set));
 }
 
-void require_one_set(const Pipeline& pipeline) {
+void require_names_for_sets(const Pipeline& pipeline, const std::string& output) {
+  const auto names = [&](const char* word) { return output.find(word) != std::string::npos; };
   const std::vector<PlannedSet> sets = planned_sets(pipeline);
-  if (sets.size() == 1) return;
-  std::vector<std::string> names;
-  names.reserve(sets.size());
-  for (const PlannedSet& set : sets) names.push_back(set.name);
-  throw Error(Fault::Usage,
-              fmt::format("found {} texture sets: {}; choose one with --name or --workflow",
-                          names.size(), fmt::join(names, ", ")));
+  if (sets.size() == 1 || names("{set}") || names("{udim}")) return;
+  std::vector<std::string> found;
+  found.reserve(sets.size());
+  for (const PlannedSet& set : sets) found.push_back(set.name);
+  throw Error(
+      Fault::Usage,
+      fmt::format("found {} texture sets: {}; choose one with --name or --workflow, or bake "
+                  "all with '{{set}}' in -o",
+                  found.size(), fmt::join(found, ", ")));
 }
 
 }  // namespace kiln

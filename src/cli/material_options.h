@@ -27,7 +27,8 @@ struct MaterialOptions {
   void add_to(Pipeline& pipeline) const;
 };
 
-/// @error Fault::Usage that lists the texture sets when there are several
-void require_one_set(const Pipeline& pipeline);
+/// @error Fault::Usage that lists the texture sets when there are several and the output has no
+/// {set} or {udim} to tell their files apart
+void require_names_for_sets(const Pipeline& pipeline, const std::string& output);
 
 }  // namespace kiln

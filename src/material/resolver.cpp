@@ -299,11 +299,16 @@ Resolver::Resolver(SlotMaps heads, const WorkflowSettings& settings,
   std::vector<Slot> given;
   for (const auto& [slot, map] : heads_) given.push_back(slot);
   read_ = slots_read(settings_.workflow, given);
-  size_ = largest_size(heads_, read_);
-  require_one_aspect(heads_, read_, size_);
+  size_ = shared_size(heads_, read_);
   for (auto& [slot, map] : heads_) {
     if (map.value) decode_slot(slot, map);
   }
+}
+
+Size shared_size(const SlotMaps& heads, const std::vector<Slot>& slots) {
+  const Size size = largest_size(heads, slots);
+  require_one_aspect(heads, slots, size);
+  return size;
 }
 
 Svbrdf Resolver::rows(SlotMaps maps, Repairs& repairs) const {

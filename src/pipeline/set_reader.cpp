@@ -99,22 +99,30 @@ SlotMap SetReader::head(const Map& map) const {
   return head;
 }
 
-// Resolved sets are as large as the largest map that the workflow reads, stored ones as the largest
-// of all.
+// Of resolved sets the maps that the workflow reads decide, of stored ones all.
 void SetReader::decide_size(const MapNeeds& needs) {
   SlotMaps heads = constants_;
   for (const Map& map : maps_) heads[map.planned.slot] = head(map);
   if (needs.resolved) {
+    add_unread(heads);
     resolver_.emplace(heads, set_.reading, bands_.normal);
     bands_.size = resolver_->size();
     return;
   }
-  bands_.size = {1, 1};
-  for (const auto& [slot, map] : heads) {
-    const Size size = map.image.size;
-    if (std::pair(area(size), size) > std::pair(area(bands_.size), bands_.size)) {
-      bands_.size = size;
-    }
+  std::vector<Slot> slots;
+  for (const auto& [slot, map] : heads) slots.push_back(slot);
+  bands_.size = shared_size(heads, slots);
+}
+
+// Maps that were not opened are told of too.
+void SetReader::add_unread(SlotMaps& heads) const {
+  for (const PlannedMap& map : set_.maps) {
+    const auto file = std::find_if(files_.begin(), files_.end(),
+                                   [&](const File& other) { return other.path == map.path; });
+    const bool may_lack =
+        map.if_present &&
+        (file == files_.end() || !has_channels(file->windows.facts().channels, map.channels));
+    if (!may_lack) heads.try_emplace(map.slot, head_of(map));
   }
 }
 

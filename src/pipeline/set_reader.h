@@ -52,6 +52,7 @@ class SetReader {
   void add_constant(const PlannedMap& map);
   size_t file_of(const PlannedMap& map, const std::vector<PlannedMap>& maps);
   void decide_size(const MapNeeds& needs);
+  void add_unread(SlotMaps& heads) const;
   const Map* find(Slot slot) const;
 
   Layers picked(const Map& map, const MapRows& rows) const;

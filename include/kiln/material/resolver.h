@@ -24,18 +24,25 @@ struct Repairs {
   void add(const Repairs& other);
 };
 
+/// The size that maps share once resampled: that of the largest of these slots, 1x1 where all are
+/// constants.
+/// @param heads  images of which only size and name are looked at
+/// @error Fault::Input naming two maps whose aspects differ by more than rounding
+Size shared_size(const SlotMaps& heads, const std::vector<Slot>& slots);
+
 /// Named maps to one BRDF per texel, rows at a time: what is decided once for all of them.
 class Resolver {
  public:
-  /// @param heads   what is given: constants, and images of which only size and layers' names are
-  ///                looked at
+  /// @param heads   what is given, read or not: constants, and images of which only size and
+  /// layers'
+  ///                names are looked at
   /// @param normal  of the normal map, where it is an image
-  /// @error Fault::Input when a map has no texels
+  /// @error as shared_size
   Resolver(SlotMaps heads, const WorkflowSettings& settings, std::optional<NormalForm> normal);
 
   /// The slots that are read, out of those given.
   const std::vector<Slot>& read() const { return read_; }
-  /// Of the largest map that is read.
+  /// shared_size() of these.
   Size size() const { return size_; }
 
   /// Rows of the SVBRDF. May be called from many threads.

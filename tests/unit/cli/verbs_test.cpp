@@ -283,9 +283,48 @@ TEST(PreviewVerb, OfABrokenDocumentOrMapsOfOtherAspectsIsAnInputError) {
                                  "(8x4) cannot belong together"));
 }
 
-TEST(InspectVerb, OfAMissingFileIsAnInputError) {
+TEST(InspectVerb, OfAMissingFileIsAnInputErrorThatCostsNoOther) {
   const Workshop shop;
-  EXPECT_EQ(kiln(shop, {"inspect", (shop / "no.png").string()}).code, 3);
+  shop.paint_set("rock");
+  shop.write("rock/rock_Normal.png", "no image");
+  const std::string image = shop.paint("a.png", 0.5f, PixelType::Uint8).string();
+  const Outcome outcome =
+      kiln(shop, {"inspect", (shop / "no.png").string(), (shop / "rock").string(), image});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("no.png"));
+  EXPECT_THAT(outcome.err, HasSubstr("rock_Normal.png"));
+  EXPECT_THAT(outcome.out, HasSubstr("rock_Roughness.png"));
+  EXPECT_THAT(outcome.out, HasSubstr(image));
+}
+
+TEST(BakeVerb, MakesEverySetThatTheOutputNames) {
+  const Workshop shop;
+  shop.paint("t.1001.png", 0.5f, PixelType::Uint8);
+  shop.paint("t.1002.png", 0.5f, PixelType::Uint8);
+  const std::string tiles =
+      shop.write("tiles.yaml", "maps: { base_color: \"t.<UDIM>.png\", roughness: 0.5 }\n").string();
+  const std::string out = (shop / "out/{udim}/{suffix}.exr").string();
+  const Outcome all = kiln(shop, {"bake", "derive", tiles, "--quantities", "f0", "-o", out});
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_THAT(all.out, HasSubstr("out/1002/f0.exr"));
+  EXPECT_TRUE(std::filesystem::exists(shop / "out/1001/f0.exr"));
+  const Outcome one = kiln(shop, {"bake", "derive", tiles, "-o", (shop / "out").string()});
+  EXPECT_EQ(one.code, 2);
+  EXPECT_THAT(one.err, HasSubstr("or bake all with '{set}' in -o"));
+}
+
+TEST(BakeVerb, OfSeveralSetsTellsWhichFailed) {
+  const Workshop shop;
+  shop.paint("t.1001.png", 0.5f, PixelType::Uint8);
+  shop.write("t.1002.png", "no image");
+  const std::string tiles =
+      shop.write("tiles.yaml", "maps: { base_color: \"t.<UDIM>.png\" }\n").string();
+  const std::string out = (shop / "{set}_{suffix}.exr").string();
+  const Outcome all = kiln(shop, {"bake", "derive", tiles, "--quantities", "f0", "-o", out});
+  EXPECT_EQ(all.code, 1);
+  EXPECT_THAT(all.err, HasSubstr("t.1002.png"));
+  EXPECT_THAT(all.out, HasSubstr("tiles.1001_f0.exr"));
+  EXPECT_TRUE(std::filesystem::exists(shop / "tiles.1001_f0.exr"));
 }
 
 TEST(DiffVerb, EndsWithSevenWhenImagesDifferByMoreThanAllowed) {

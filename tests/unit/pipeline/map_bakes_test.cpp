@@ -258,6 +258,31 @@ TEST(MapBakes, RefuseABudgetThatHoldsNoBand) {
   EXPECT_FALSE(fs::exists(shop / "out/p/metallicRoughness.png"));
 }
 
+TEST(MapBakes, RefuseMapsOfOtherAspectsUnlessTheyAreNotRead) {
+  const Workshop shop;
+  shop.paint("odd/x_BaseColor.png", 0.5f, PixelType::Uint8, {8, 8});
+  shop.paint("odd/x_Roughness.png", 0.5f, PixelType::Uint8, {8, 4});
+  for (const char* bake : {"pack", "mips", "derive", "convert, to: spec-gloss"}) {
+    const Report report = run(shop, std::string("bake: ") + bake + ", out: o", "odd");
+    EXPECT_THAT(fault_of(report), HasSubstr("base_color x_BaseColor.png (8x8) and roughness "
+                                            "x_Roughness.png (8x4) cannot belong together"));
+    EXPECT_EQ(report.tasks[0].fault->fault(), Fault::Input);
+  }
+  expect_baked(run(shop, "bake: mips, map: base_color, out: \"{suffix}.exr\"", "odd"));
+}
+
+TEST(MapBakes, TellOfMapsThatTheWorkflowDoesNotRead) {
+  const Workshop shop;
+  paint_set(shop);
+  for (const char* map : {"Emissive", "Glossiness"}) {
+    shop.paint(std::string("rock/x_") + map + ".png", 0.5f, PixelType::Uint8);
+  }
+  const Report report = run(shop, "bake: derive, quantities: f0, out: d");
+  expect_baked(report);
+  EXPECT_THAT(report.sets.at(0).notes, Contains("emissive: not rendered, ignored"));
+  EXPECT_THAT(report.sets.at(0).notes, Contains("gloss: not read by metal-rough"));
+}
+
 TEST(MapBakes, RollWithTheirInput) {
   const Workshop shop;
   constexpr int roll = 13;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "one_task.h"
+#include "one_bake.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "console.h"
 #include "interruption.h"
@@ -79,17 +80,26 @@ void print_notes(const Report& report) {
   for (const TaskRecord& task : report.tasks) print(task.notes);
 }
 
-// A file's folder is the output folder; a folder is its own.
+// The output folder is what is sure to be one: all before a file's name, and before the first part
+// that names sets or maps. The bake's output is the rest.
 fs::path name_output(BakeChoice& bake, const std::string& output) {
   const Product product = facts_of_bake(bake.bake).product;
   const fs::path path(output);
-  const bool names_files = output.find("{suffix}") != std::string::npos || path.has_extension();
-  if (product == Product::Folder || (product == Product::Maps && !names_files)) {
+  const bool has_names = output.find('{') != std::string::npos;
+  const bool is_folder =
+      product == Product::Folder || (product == Product::Maps && !path.has_extension());
+  if (is_folder && !has_names) {
     bake.out = ".";
     return output;
   }
-  bake.out = path.filename().string();
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+  fs::path folder, rest;
+  auto part = path.begin();
+  for (; std::next(part) != path.end() && part->string().find('{') == std::string::npos; ++part) {
+    folder /= *part;
+  }
+  for (; part != path.end(); ++part) rest /= *part;
+  bake.out = rest.string();
+  return folder.empty() ? "." : folder;
 }
 
 }  // namespace
@@ -132,29 +142,29 @@ std::vector<std::pair<std::string, std::string>> BakeOptions::given() const {
   return keys;
 }
 
-int run_one_task(Pipeline pipeline, const std::string& output, const Globals& globals) {
+int run_one_bake(Pipeline pipeline, const std::string& output, const Globals& globals) {
   if (output.empty()) throw Error(Fault::Usage, "no output is given: -o FILE, or -o DIR");
   const Interruption interruption;
   pipeline.color.config = chosen_config(globals.ocio, pipeline.color.config);
   const fs::path folder = name_output(pipeline.bakes.at(0), output);
   Plan plan = make_plan(pipeline, folder);
   plan.max_memory = globals.max_memory;
+  const bool is_alone = plan.tasks.size() == 1;
   Watcher watcher = console_watcher(ProgressStyle::None, globals);
   watcher.loaded = {};
   watcher.lit = {};
-  watcher.ended = {};
+  if (is_alone) watcher.ended = {};
   watcher.interrupted = [&] { return interruption.signal(); };
   const Report report = run_plan(plan, Records::None, watcher);
   if (!globals.quiet) print_notes(report);
   if (report.signal != 0) return exit_code(report);
-  const TaskRecord& task = report.tasks.at(0);
-  if (task.fault) throw Error(*task.fault);
+  if (is_alone && report.tasks.at(0).fault) throw Error(*report.tasks.at(0).fault);
   if (globals.json) {
     fmt::print("{}", report_json(report));
   } else if (!globals.quiet) {
-    print_task(folder, task);
+    for (const TaskRecord& task : report.tasks) print_task(folder, task);
   }
-  return 0;
+  return exit_code(report);
 }
 
 }  // namespace kiln

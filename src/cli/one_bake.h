@@ -37,9 +37,9 @@ class BakeOptions {
   std::vector<std::shared_ptr<Option>> options_;
 };
 
-/// Runs a pipeline of one bake and prints what came of it.
+/// Runs a pipeline of one bake, of one texture set or of several, and prints what came of it.
 /// @param output  file or folder, as the user wrote it
-/// @error Fault::Usage when no output is given, else the task's own fault
-int run_one_task(Pipeline pipeline, const std::string& output, const Globals& globals);
+/// @error Fault::Usage when no output is given; of a single task its own fault
+int run_one_bake(Pipeline pipeline, const std::string& output, const Globals& globals);
 
 }  // namespace kiln
