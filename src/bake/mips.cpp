@@ -217,6 +217,10 @@ std::vector<std::string> notes_of(const Settings& settings, const MapBands& maps
   if (settings.alpha_test > 0 && choice.opacity_scales.empty()) {
     notes.emplace_back("alpha_test: the set has no opacity map");
   }
+  if (settings.alpha_test == 0 && maps.alpha_cutoff && choice.weighted) {
+    notes.push_back(fmt::format("the set is a cutout: alpha_test {} would keep its coverage",
+                                *maps.alpha_cutoff));
+  }
   return notes;
 }
 

@@ -5,7 +5,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -97,14 +96,6 @@ std::string listed(const std::string& title, const std::vector<std::string>& lin
 }
 
 }  // namespace
-
-void print_error(const std::string& message) {
-  for (size_t begin = 0; begin <= message.size();) {
-    const size_t end = std::min(message.find('\n', begin), message.size());
-    fmt::print(stderr, "kiln: error: {}\n", message.substr(begin, end - begin));
-    begin = end + 1;
-  }
-}
 
 ProgressStyle progress_style(const std::string& word, const Globals& globals) {
   ParamFacts facts;

@@ -8,9 +8,6 @@
 
 namespace kiln {
 
-/// On stderr, "kiln: error: " before each of its lines.
-void print_error(const std::string& message);
-
 enum class ProgressStyle { Terminal, Plain, Json, None };
 
 /// @param word  auto, tty, plain, json or none; auto is tty on a terminal, else plain

@@ -8,11 +8,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "console.h"
 #include "kiln/core/error.h"
 #include "kiln/io/image_rows.h"
 #include "kiln/material/slots.h"
 #include "material_options.h"
+#include "print_error.h"
 #include "verb.h"
 
 namespace kiln {
@@ -195,9 +195,7 @@ struct InspectArguments {
 };
 
 bool is_material(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return fs::is_directory(path) || extension == ".yaml" || extension == ".yml" ||
-         extension == ".json" || is_material_document(path);
+  return fs::is_directory(path) || is_material_file(path) || is_material_document(path);
 }
 
 void print_heading(const PlannedSet& set) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "console.h"
 #include "kiln/core/error.h"
+#include "print_error.h"
 #include "verb.h"
 
 namespace {

@@ -13,13 +13,6 @@
 namespace kiln {
 namespace {
 
-namespace fs = std::filesystem;
-
-bool is_material_file(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".yaml" || extension == ".yml" || extension == ".json";
-}
-
 void apply_reading(const std::vector<std::pair<std::string, std::string>>& reading,
                    SetChoice& set) {
   for (const auto& [key, text] : reading) {

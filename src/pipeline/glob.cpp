@@ -10,17 +10,37 @@ namespace fs = std::filesystem;
 
 bool has_wildcard(std::string_view text) { return text.find_first_of("*?") != text.npos; }
 
-std::vector<fs::path> subfolders(const fs::path& folder, const std::string& pattern) {
+std::vector<fs::path> entries(const fs::path& folder, const std::string& pattern) {
   std::vector<fs::path> found;
   std::error_code failure;
   const fs::path listed = folder.empty() ? fs::path(".") : folder;
   for (const fs::directory_entry& entry : fs::directory_iterator(listed, failure)) {
     const std::string name = entry.path().filename().string();
     const bool hidden = name.front() == '.' && pattern.front() != '.';
-    if (!hidden && entry.is_directory(failure) && matches(pattern, name)) {
-      found.push_back(folder / name);
-    }
+    if (!hidden && matches(pattern, name)) found.push_back(folder / name);
   }
+  return found;
+}
+
+// Whatever there is at such a path, and what would be there where the last part is no pattern.
+std::vector<fs::path> expand(const std::string& pattern) {
+  std::vector<fs::path> found = {fs::path()};
+  for (const fs::path& part : fs::path(pattern)) {
+    const std::string name = part.string();
+    if (name.empty()) continue;
+    std::vector<fs::path> next;
+    for (const fs::path& folder : found) {
+      if (has_wildcard(name)) {
+        const std::vector<fs::path> below = entries(folder, name);
+        next.insert(next.end(), below.begin(), below.end());
+      } else {
+        next.push_back(folder / part);
+      }
+    }
+    found = std::move(next);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
   return found;
 }
 
@@ -47,25 +67,16 @@ bool matches(std::string_view pattern, std::string_view text) {
 }
 
 std::vector<fs::path> expand_folders(const std::string& pattern) {
-  std::vector<fs::path> found = {fs::path()};
-  for (const fs::path& part : fs::path(pattern)) {
-    const std::string name = part.string();
-    if (name.empty()) continue;
-    std::vector<fs::path> next;
-    for (const fs::path& folder : found) {
-      if (has_wildcard(name)) {
-        const std::vector<fs::path> below = subfolders(folder, name);
-        next.insert(next.end(), below.begin(), below.end());
-      } else {
-        next.push_back(folder / part);
-      }
-    }
-    found = std::move(next);
-  }
+  std::vector<fs::path> found = expand(pattern);
   std::error_code failure;
-  std::erase_if(found, [&](const fs::path& folder) { return !fs::is_directory(folder, failure); });
-  std::sort(found.begin(), found.end(),
-            [](const fs::path& a, const fs::path& b) { return a.native() < b.native(); });
+  std::erase_if(found, [&](const fs::path& path) { return !fs::is_directory(path, failure); });
+  return found;
+}
+
+std::vector<fs::path> expand_files(const std::string& pattern) {
+  std::vector<fs::path> found = expand(pattern);
+  std::error_code failure;
+  std::erase_if(found, [&](const fs::path& path) { return !fs::is_regular_file(path, failure); });
   return found;
 }
 

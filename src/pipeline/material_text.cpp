@@ -103,8 +103,10 @@ bool is_there(const PlannedMap& map) {
 }
 
 // Of the set's reading, what is not the default.
-std::string reading_text(const WorkflowSettings& reading) {
+std::string reading_text(const PlannedSet& set) {
+  const WorkflowSettings& reading = set.reading;
   std::string text;
+  if (set.alpha_cutoff) text += fmt::format("alpha_cutoff: {}\n", *set.alpha_cutoff);
   if (reading.normal_zero != NormalZero::Both) {
     text += fmt::format("normal_zero: {}\n", word(normal_zero_names, reading.normal_zero));
   }
@@ -123,9 +125,8 @@ MaterialText material_text(const MapSheet& sheet, const std::vector<std::string>
                            const PlannedSet& set, const MapBands& bands, const fs::path& folder) {
   const SheetMaterial& material = *sheet.material;
   MaterialText result;
-  result.text =
-      fmt::format("# {}\nversion: 1\nname: {}\nworkflow: {}\n{}maps:\n", software(),
-                  quoted(set.name), workflow_name(material.workflow), reading_text(set.reading));
+  result.text = fmt::format("# {}\nversion: 1\nname: {}\nworkflow: {}\n{}maps:\n", software(),
+                            quoted(set.name), workflow_name(material.workflow), reading_text(set));
   for (size_t i = 0; i < files.size(); ++i) {
     result.text += fmt::format("  {}: {}\n", slot_name(material.slots[i]),
                                line_of(sheet.files[i], material.slots[i], files[i]));

@@ -107,9 +107,18 @@ void read_reading(const Node& node, SetChoice& set) {
     if (param.facts.name == "workflow") continue;
     with(node, param.facts.name, [&](const Node& word) { param.assign(set.reading, word.text); });
   }
+  with(node, "alpha_cutoff", [&](const Node& at) { set.alpha_cutoff = parse_number({}, at.text); });
   with(node, "workflow", [&](const Node& word) {
     if (kebab(word.text) != "auto") set.workflow = parse_workflow(word.text);
   });
+}
+
+void refuse_other_keys(const Node& node, const std::vector<std::string>& known,
+                       const std::string& reason, const Reading& reading) {
+  for (const Entry& entry : node.entries) {
+    if (std::count(known.begin(), known.end(), snake(entry.key)) > 0) continue;
+    reading.mistakes.add(entry.place, fmt::format("{}: {}", entry.key, reason));
+  }
 }
 
 SetChoice read_set(const Node& node, const Reading& reading) {
@@ -134,6 +143,10 @@ SetChoice read_set(const Node& node, const Reading& reading) {
   }
   if (!set.packed.empty() && set.path.empty()) {
     reading.mistakes.add(node.place, "`packed` is the layout of an image that `path` names");
+  }
+  if (is_material_file(set.path) || is_material_file(set.glob)) {
+    refuse_other_keys(node, {"glob", "path", "name"}, "a material file says itself how it is read",
+                      reading);
   }
   if (!set.glob.empty() && !set.name.empty()) {
     reading.mistakes.add(node.place, "a glob makes many sets and cannot have one name");
@@ -315,6 +328,11 @@ Pipeline read_pipeline(const fs::path& file,
   return pipeline;
 }
 
+bool is_material_file(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".yaml" || extension == ".yml" || extension == ".json";
+}
+
 MaterialFile read_material_file(const fs::path& file) {
   const Node root = read_document(file);
   Mistakes mistakes;
@@ -326,7 +344,12 @@ MaterialFile read_material_file(const fs::path& file) {
   result.set.name = text_at(root, "name", file.stem().string());
   result.set.maps = read_maps(*root.find("maps"), reading);
   read_reading(root, result.set);
-  with(root, "material", [&](const Node& node) { result.material = read_material(node); });
+  with(root, "material", [&](const Node& node) {
+    result.material = read_material(node);
+    for (const Param<SurfaceChoice>& param : surface_params()) {
+      if (node.find(param.facts.name) != nullptr) result.models.push_back(param.facts.name);
+    }
+  });
   mistakes.raise();
   return result;
 }

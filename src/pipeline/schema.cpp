@@ -88,6 +88,8 @@ Key version_key() {
 BlockFacts with_reading_keys(BlockFacts block) {
   block.keys.push_back(
       word("workflow", workflow_words(), "", "instead of the workflow under `material`"));
+  block.keys.push_back(
+      number("alpha_cutoff", {0, 1}, "", "of a cutout: opacity below which it has holes", ""));
   for (const Param<WorkflowSettings>& param : workflow_params()) {
     if (param.facts.name != "workflow") block.keys.push_back({param.facts});
   }
@@ -145,9 +147,10 @@ BlockFacts set_block() {
   BlockFacts block{
       "set",
       "one texture set, or one per folder that a pattern matches",
-      {text("glob", "pattern of folders (* and ?, ends with /), each a set"),
+      {text("glob", "pattern (* and ?) of folders, each a set, or of files as `path` takes them"),
        text("path",
-            "one folder, a set; or a glTF or MaterialX file, a set a material; or a packed image"),
+            "one folder, or a material file, a set; or a glTF or MaterialX file, a set a material; "
+            "or a packed image"),
        listed(text("packed", "layout of that image, as bake pack takes one")),
        text("material", "the one material of that file that is wanted"),
        text("name", "name of the set"),

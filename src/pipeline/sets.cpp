@@ -2,6 +2,7 @@
 #include "sets.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -84,6 +85,47 @@ std::vector<PlannedSet> sets_in(const fs::path& folder, const std::vector<std::s
   return sets;
 }
 
+PlannedSet set_of_maps(const SetChoice& choice, const MaterialChoice& material) {
+  PlannedSet set;
+  set.name = choice.name;
+  set.source = choice.place.file;
+  set.reading = choice.reading;
+  std::vector<Slot> given;
+  for (const MapChoice& map : choice.maps) {
+    set.maps.push_back(planned(map, material.specular));
+    given.push_back(map.slot);
+  }
+  const WorkflowGuess guess = guess_workflow(given);
+  const std::optional<Workflow> stated = choice.workflow ? choice.workflow : material.workflow;
+  set.reading.workflow = stated.value_or(guess.workflow);
+  set.workflow_reason = stated ? "stated" : guess.reason;
+  return set;
+}
+
+PlannedSet broken_set(const std::string& name, const fs::path& source, const Error& fault) {
+  PlannedSet set;
+  set.name = name;
+  set.source = source.string();
+  set.fault = fault;
+  return set;
+}
+
+// Models light every set of a pipeline alike, so a file's own count only where it is alone.
+PlannedSet set_of_material_file(const fs::path& path, const std::string& name) {
+  PlannedSet set;
+  const std::optional<Error> fault = error_leaving([&] {
+    const MaterialFile file = read_material_file(path);
+    set = set_of_maps(file.set, file.material);
+    set.alpha_cutoff = file.set.alpha_cutoff;
+    if (file.models.empty()) return;
+    set.warnings.push_back(fmt::format("{}: {} not read here, models are those of the pipeline",
+                                       path.string(), fmt::join(file.models, ", ")));
+  });
+  if (fault) return broken_set(name.empty() ? path.stem().string() : name, path, *fault);
+  if (!name.empty()) set.name = name;
+  return set;
+}
+
 void plan_globbed(const SetChoice& choice, const MaterialChoice& material, Plan& plan,
                   Mistakes& mistakes) {
   const std::vector<fs::path> folders = expand_folders(choice.glob);
@@ -117,14 +159,6 @@ void keep_chosen(const std::string& name, std::vector<PlannedSet>& sets) {
     throw Error(Fault::Usage, unknown_name("set", name, names));
   }
   std::erase_if(sets, [&](const PlannedSet& set) { return set.name != name; });
-}
-
-PlannedSet broken_set(const std::string& name, const fs::path& source, const Error& fault) {
-  PlannedSet set;
-  set.name = name;
-  set.source = source.string();
-  set.fault = fault;
-  return set;
 }
 
 // The materials of a document, under a stated name where there is one.
@@ -190,27 +224,25 @@ std::vector<PlannedSet> sets_at_path(const SetChoice& choice, const MaterialChoi
                 fmt::format("packed: {} is no image, but has maps of its own", path.string()));
   }
   if (is_material_document(path)) return sets_of_document(choice);
+  if (is_material_file(path)) return {set_of_material_file(path, choice.name)};
   if (is_folder) return sets_of_folder(choice, material);
   if (fs::exists(path, failure)) return sets_of_image(choice, material);
   const Error fault(Fault::Input, fmt::format("{}: no such folder", path.string()));
   return {broken_set(choice.name.empty() ? folder_name(path) : choice.name, path, fault)};
 }
 
-void plan_maps(const SetChoice& choice, const MaterialChoice& material, Plan& plan) {
-  PlannedSet set;
-  set.name = choice.name;
-  set.source = choice.place.file;
-  set.reading = choice.reading;
-  std::vector<Slot> given;
-  for (const MapChoice& map : choice.maps) {
-    set.maps.push_back(planned(map, material.specular));
-    given.push_back(map.slot);
+void plan_globbed_files(const SetChoice& choice, const MaterialChoice& material, Plan& plan,
+                        Mistakes& mistakes) {
+  const std::vector<fs::path> files = expand_files(choice.glob);
+  if (files.empty()) {
+    mistakes.add(choice.place, fmt::format("glob: no file matches '{}'", choice.glob));
   }
-  const WorkflowGuess guess = guess_workflow(given);
-  const std::optional<Workflow> stated = choice.workflow ? choice.workflow : material.workflow;
-  set.reading.workflow = stated.value_or(guess.workflow);
-  set.workflow_reason = stated ? "stated" : guess.reason;
-  plan.sets.push_back(std::move(set));
+  for (const fs::path& file : files) {
+    SetChoice one = choice;
+    one.path = file;
+    std::vector<PlannedSet> sets = sets_at_path(one, material);
+    std::move(sets.begin(), sets.end(), std::back_inserter(plan.sets));
+  }
 }
 
 void refuse_equal_names(const Plan& plan, Mistakes& mistakes) {
@@ -228,12 +260,17 @@ void refuse_equal_names(const Plan& plan, Mistakes& mistakes) {
 void plan_sets(const Pipeline& pipeline, Plan& plan, Mistakes& mistakes) {
   for (const SetChoice& choice : pipeline.sets) {
     Plan own;
-    if (!choice.glob.empty()) {
+    if (is_material_file(choice.glob) || is_material_document(choice.glob)) {
+      plan_globbed_files(choice, pipeline.material, own, mistakes);
+    } else if (!choice.glob.empty()) {
       plan_globbed(choice, pipeline.material, own, mistakes);
     } else if (!choice.path.empty()) {
       attempt(mistakes, choice.place, [&] { own.sets = sets_at_path(choice, pipeline.material); });
     } else {
-      plan_maps(choice, pipeline.material, own);
+      own.sets.push_back(set_of_maps(choice, pipeline.material));
+    }
+    for (PlannedSet& set : own.sets) {
+      if (choice.alpha_cutoff) set.alpha_cutoff = choice.alpha_cutoff;
     }
     own.sets = tile_by_tile(std::move(own.sets));
     attempt(mistakes, choice.place, [&] { keep_chosen(choice.chosen, own.sets); });

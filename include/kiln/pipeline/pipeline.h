@@ -49,7 +49,8 @@ struct MapChoice {
   Place place = {};
 };
 
-/// An entry of `sets`: a pattern of folders, a folder, document or packed image, or maps by slot.
+/// An entry of `sets`: a pattern of folders or files; a folder, material file, document or packed
+/// image; or maps by slot.
 struct SetChoice {
   Place place;
   std::string glob;
@@ -61,7 +62,8 @@ struct SetChoice {
   std::vector<MapChoice> maps;
   std::vector<std::string> naming;  ///< empty: every scheme
   std::optional<Workflow> workflow;
-  WorkflowSettings reading;  ///< how maps are decoded; its workflow is decided later
+  std::optional<double> alpha_cutoff;  ///< of a cutout
+  WorkflowSettings reading;            ///< how maps are decoded; its workflow is decided later
 };
 
 struct MaterialChoice {
@@ -116,7 +118,9 @@ Pipeline read_pipeline(const std::filesystem::path& file,
 struct MaterialFile {
   SetChoice set;
   MaterialChoice material;
+  std::vector<std::string> models;  ///< keys of its surface that it states
 };
+/// @error as read_pipeline
 MaterialFile read_material_file(const std::filesystem::path& file);
 
 /// An entry of `bakes` from keys and values, as a command line gives them.
@@ -133,6 +137,9 @@ EnvironmentChoice environment_choice(const std::string& name,
 /// @error Fault::Usage for unknown names, and for every mistake in the file, with its place;
 ///        Fault::Input when the file cannot be read
 std::string layout_text(const std::string& text, const std::filesystem::path& folder);
+
+/// Whether the name is that of such a file: .yaml, .yml or .json.
+bool is_material_file(const std::filesystem::path& path);
 
 /// Whether the name is that of a document of materials: .gltf, .glb or .mtlx.
 bool is_material_document(const std::filesystem::path& path);

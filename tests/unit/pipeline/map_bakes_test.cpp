@@ -414,13 +414,14 @@ TEST(Converting, WritesAMaterialFileThatReadsItBack) {
 TEST(Converting, NamesItsMaterialFileLikeItsMapsAndPassesOthersThrough) {
   const Workshop shop;
   paint_set(shop);
-  const std::string set = "rock, normal_zero: 127, wrap: clamp";
+  const std::string set = "rock, normal_zero: 127, wrap: clamp, alpha_cutoff: 0.25";
   const Report report =
       run(shop, "bake: convert, to: spec-gloss, out: \"T_{set}_{suffix}.png\"", set);
   expect_baked(report);
   EXPECT_THAT(report.tasks[0].outputs, Contains("T_rock_material.yaml"));
   const std::string text = text_of(shop / "out/T_rock_material.yaml");
-  EXPECT_THAT(text, HasSubstr("workflow: spec-gloss\nnormal_zero: 127\nwrap: clamp\n"));
+  EXPECT_THAT(
+      text, HasSubstr("workflow: spec-gloss\nalpha_cutoff: 0.25\nnormal_zero: 127\nwrap: clamp\n"));
   EXPECT_THAT(text, HasSubstr("diffuse: { path: \"T_rock_diffuse.png\", color_space: "
                               "\"srgb_rec709_scene\" }"));
   EXPECT_THAT(text, HasSubstr("gloss: { path: \"T_rock_gloss.png\" }"));

@@ -136,6 +136,18 @@ TEST(MipFiles, AreTheSameBytesEachTime) {
   }
 }
 
+TEST(MipFiles, OfACutoutSayWhatWouldKeepItsCoverage) {
+  const Workshop shop;
+  paint_stones(shop);
+  fs::copy(shop / "stones/stones_Roughness.png", shop / "stones/stones_Opacity.png");
+  const std::string text =
+      "version: 1\nsets: [{ path: stones, alpha_cutoff: 0.25 }]\n"
+      "bakes: [{ bake: mips, map: opacity, out: m.exr }]\n";
+  const Plan plan = make_plan(read_pipeline(shop.write("p.yaml", text)), shop / "out");
+  EXPECT_THAT(run_plan(plan, Records::None).tasks.at(0).notes,
+              testing::Contains("the set is a cutout: alpha_test 0.25 would keep its coverage"));
+}
+
 TEST(MipFiles, SayWhatDoesNotFit) {
   const Workshop shop;
   paint_stones(shop);

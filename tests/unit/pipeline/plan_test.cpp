@@ -189,6 +189,31 @@ bakes: []
   EXPECT_EQ(plan.sets.at(1).reading.workflow, Workflow::MetalRough);
 }
 
+TEST(Plan, TakesMaterialFilesByNameOrPatternAndABrokenOneCostsNoOther) {
+  const Workshop shop;
+  shop.write("m/a/material.yaml",
+             "name: a\nworkflow: spec-gloss\nalpha_cutoff: 0.3\nmaps: { diffuse: d.png }\n"
+             "material: { diffuse: lambert }\n");
+  shop.write("m/b/material.yaml", "maps: { base_colour: c.png }\n");
+  const Plan plan = plan_of(shop,
+                            "sets: [{ glob: \"m/*/material.yaml\" },\n"
+                            "       { path: m/a/material.yaml, name: again }]\nbakes: []\n");
+  ASSERT_EQ(plan.sets.size(), 3u);
+  const PlannedSet& set = plan.sets[0];
+  EXPECT_EQ(set.name, "a");
+  EXPECT_EQ(set.reading.workflow, Workflow::SpecGloss);
+  EXPECT_EQ(set.alpha_cutoff, 0.3);
+  EXPECT_EQ(set.maps.at(0).path, shop / "m/a/d.png");
+  EXPECT_THAT(set.warnings.at(0), HasSubstr("diffuse not read here"));
+  ASSERT_TRUE(plan.sets[1].fault);
+  EXPECT_THAT(plan.sets[1].fault->what(), HasSubstr("did you mean 'base_color'?"));
+  EXPECT_EQ(plan.sets[2].name, "again");
+  EXPECT_THAT(refusal_of(shop, "sets: [{ path: a.yaml, wrap: clamp }]\nbakes: []\n"),
+              HasSubstr("wrap: a material file says itself how it is read"));
+  EXPECT_THAT(refusal_of(shop, "sets: [{ glob: \"m/*/no.yaml\" }]\nbakes: []\n"),
+              HasSubstr("no file matches"));
+}
+
 TEST(PlanSelection, MatchesSetsAndOutputs) {
   const Workshop shop;
   shop.paint_set("tex/a");
