@@ -7,10 +7,13 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "kiln/core/error.h"
 #include "kiln/io/image_rows.h"
 #include "kiln/material/slots.h"
+#include "kiln/pipeline/document.h"
 #include "material_options.h"
 #include "print_error.h"
 #include "verb.h"
@@ -252,12 +255,10 @@ class Inspection {
 
   template <class Work>
   void attempt(Work&& work) {
-    try {
-      work();
-    } catch (const Error& error) {
-      print_error(error.what());
-      if (code_ == 0) code_ = exit_code(error.fault());
-    }
+    const std::optional<Error> fault = error_leaving(std::forward<Work>(work));
+    if (!fault) return;
+    print_error(fault->what());
+    if (code_ == 0) code_ = exit_code(fault->fault());
   }
 
   bool is_json_;
