@@ -30,6 +30,18 @@ struct PngChunk {
   ByteView behind;  // all that follows
 };
 
+/// Lets go of what was walked through, a piece at a time.
+struct Walk {
+  const LetGo& let_go;
+  size_t next = FileContents::mapped_piece;
+
+  void reach(size_t at) {
+    if (at < next) return;
+    let_go();
+    next = at + FileContents::mapped_piece;
+  }
+};
+
 // The chunk at the front, unless the bytes end within it.
 std::optional<PngChunk> chunk_at(ByteView bytes) {
   if (bytes.size() < png_chunk_frame) return std::nullopt;
@@ -85,9 +97,11 @@ std::optional<std::string> png_color_tag(ByteView bytes) {
   return tag;
 }
 
-bool png_is_complete(ByteView bytes) {
+bool png_is_complete(ByteView bytes, const LetGo& let_go) {
+  Walk walk{let_go};
   for (auto chunk = first_chunk(bytes); chunk; chunk = next(*chunk)) {
     if (chunk->name == "IEND") return true;
+    walk.reach(bytes.size() - chunk->behind.size());
   }
   return false;
 }
@@ -120,14 +134,16 @@ bool dds_may_hold_its_pixels(ByteView bytes) {
   return texels > 0 && texels / 2 <= static_cast<double>(bytes.size() - header_length);
 }
 
-bool jpeg_is_complete(ByteView bytes) {
+bool jpeg_is_complete(ByteView bytes, const LetGo& let_go) {
   constexpr uint8_t end_of_image = 0xd9;
   constexpr uint8_t start_of_scan = 0xda;
   const auto has_no_length = [](uint8_t marker) {
     return marker == 0 || marker == 1 || (marker >= 0xd0 && marker <= 0xd8) || marker == 0xff;
   };
   bool scan_seen = false;
+  Walk walk{let_go};
   for (size_t at = 2; at + 1 < bytes.size();) {
+    walk.reach(at);
     const uint8_t marker = bytes[at + 1];
     if (bytes[at] != 0xff || has_no_length(marker)) {
       // Between markers, in coded data (where ff is followed by 00), at a restart or a fill byte.

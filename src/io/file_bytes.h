@@ -23,6 +23,8 @@ Bytes all_bytes(const std::filesystem::path& path);
 class FileContents {
  public:
   static constexpr size_t largest_held = size_t{64} << 20;
+  /// Of a mapped file at most so much should be read before let_go().
+  static constexpr size_t mapped_piece = size_t{16} << 20;
 
   /// @error as first_bytes
   explicit FileContents(const std::filesystem::path& path);

@@ -221,9 +221,7 @@ io::Volume io::read_volume(const fs::path& path, const std::string& format,
                            const Reading& reading) {
   if (format == "openexr") return {read_openexr(path, reading)};
   const FileContents contents(path);
-  Reading in_pieces = reading;
-  in_pieces.let_go = [&] { contents.let_go(); };
-  return volume_of_bytes(contents.view(), format, in_pieces);
+  return volume_of_bytes(contents.view(), format, in_pieces(reading, contents));
 }
 
 io::Volume io::volume_of_bytes(ByteView bytes, const std::string& format, const Reading& reading) {

@@ -70,6 +70,15 @@ bool is_held_whole(const FileFacts& facts) {
   return is_held(facts.format) || !facts.stored_as_shown;
 }
 
+long long bytes_kept(const fs::path& path, const FileFacts& facts) {
+  if (facts.format == "openexr") return 0;
+  std::error_code failure;
+  const uintmax_t size = fs::file_size(path, failure);
+  if (failure) return 0;
+  const bool is_mapped = size > io::FileContents::largest_held;
+  return static_cast<long long>(is_mapped ? io::FileContents::mapped_piece : size);
+}
+
 ImageRows::ImageRows(const fs::path& path, const std::vector<std::string>& channels,
                      const ReadLimits& limits)
     : path_(path), source_(open_rows(path, channels, limits)) {}

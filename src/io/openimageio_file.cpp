@@ -202,11 +202,11 @@ Layers read_pixels(const Opened& opened, const Picked& picked, const std::string
 }
 
 // What the bytes show of a file that ends too early.
-void require_complete(const std::string& format, ByteView bytes) {
-  if (format == "jpeg" && !jpeg_is_complete(bytes)) {
+void require_complete(const std::string& format, ByteView bytes, const LetGo& let_go) {
+  if (format == "jpeg" && !jpeg_is_complete(bytes, let_go)) {
     refuse("truncated JPEG file: it has no end of image");
   }
-  if (format == "png" && !png_is_complete(bytes)) {
+  if (format == "png" && !png_is_complete(bytes, let_go)) {
     refuse("truncated PNG file: its chunks do not run to IEND");
   }
 }
@@ -217,10 +217,10 @@ struct Prepared {
   FileFacts facts;
 };
 
-Prepared prepare(const std::string& format, ByteView bytes, const ReadLimits& limits) {
-  Prepared prepared{open(format, bytes, limits), {}};
+Prepared prepare(const std::string& format, ByteView bytes, const Reading& reading) {
+  Prepared prepared{open(format, bytes, reading.limits), {}};
   prepared.facts = facts_of(format, bytes, prepared.opened);
-  require_complete(format, bytes);
+  require_complete(format, bytes, reading.let_go);
   module::StoredImage& stored = prepared.opened.stored;
   if (format != "tiff") stored.premultiplied = 0;
   if (stored.premultiplied != 0) {
@@ -234,7 +234,7 @@ class OpenImageIoRows : public RowSource {
   OpenImageIoRows(const std::filesystem::path& path, const std::string& format,
                   const Reading& reading)
       : contents_(path),
-        prepared_(prepare(format, contents_.view(), reading.limits)),
+        prepared_(prepare(format, contents_.view(), in_pieces(reading, contents_))),
         rows_(prepared_.opened, pick(prepared_.facts.channels, reading), format) {}
 
   const FileFacts& facts() const override { return prepared_.facts; }
@@ -259,7 +259,7 @@ FileFacts inspect_by_openimageio(const std::string& format, ByteView bytes,
 }
 
 ImageFile read_by_openimageio(const std::string& format, ByteView bytes, const Reading& reading) {
-  Prepared prepared = prepare(format, bytes, reading.limits);
+  Prepared prepared = prepare(format, bytes, reading);
   ImageFile file;
   file.facts = std::move(prepared.facts);
   try {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "file_bytes.h"
 #include "kiln/io/image_file.h"
 
 namespace kiln::io {
@@ -23,5 +24,11 @@ struct Reading {
     return channels.empty() || std::count(channels.begin(), channels.end(), channel) > 0;
   }
 };
+
+/// The same, of a file's contents, which outlive it.
+inline Reading in_pieces(Reading reading, const FileContents& contents) {
+  reading.let_go = [&contents] { contents.let_go(); };
+  return reading;
+}
 
 }  // namespace kiln::io

@@ -34,13 +34,14 @@ bool is_of_anisotropy(Slot slot) {
   return slot == Slot::Anisotropy || slot == Slot::AnisotropyAngle;
 }
 
-// What of a file stays in memory: images inside others as they are there, and all texels of those
-// that cannot be read row by row.
+// What of a file stays in memory: its bytes, or some of them, and all texels of those that cannot
+// be read row by row.
 long long bytes_held(const PlannedMap& map, const FileFacts& facts, size_t channels) {
   const bool is_embedded = map.embedded.bytes != nullptr;
-  if (!is_embedded && !is_held_whole(facts)) return 0;
-  const long long texels = 4LL * area(facts.size) * static_cast<long long>(channels);
-  return texels + (is_embedded ? static_cast<long long>(map.embedded.bytes->size()) : 0);
+  const long long file = is_embedded ? static_cast<long long>(map.embedded.bytes->size())
+                                     : bytes_kept(map.path, facts);
+  if (!is_embedded && !is_held_whole(facts)) return file;
+  return file + 4LL * area(facts.size) * static_cast<long long>(channels);
 }
 
 }  // namespace

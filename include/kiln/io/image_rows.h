@@ -15,6 +15,10 @@ class RowSource;
 /// Whether ImageRows holds such a file whole.
 bool is_held_whole(const FileFacts& facts);
 
+/// What ImageRows keeps of the bytes of such a file while it reads them [byte]: all of a small one,
+/// a part of a large one.
+long long bytes_kept(const std::filesystem::path& path, const FileFacts& facts);
+
 /// An image file that is read from its first row to its last, some rows at a time: the same values
 /// as read_image, while no more is held than a block of rows.
 ///

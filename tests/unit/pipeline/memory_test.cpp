@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "kiln/io/image_rows.h"
 #include "kiln/parallel/threads.h"
 #include "kiln/pipeline/plan.h"
 #include "support/workshop.h"
@@ -63,8 +65,25 @@ TEST(PredictedMemory, CountsFilesThatAreNotReadRowByRow) {
   shop.paint("a.png", 0.5f, PixelType::Uint8, size);
   shop.paint("a.hdr", 0.5f, PixelType::Float, size);
   const std::string unpack = "bake: unpack";
-  EXPECT_EQ(predicted(shop, "base_color: a.hdr", unpack),
-            predicted(shop, "base_color: a.png", unpack) + 3 * plane);
+  const auto besides_its_bytes = [&](const std::string& file) {
+    return predicted(shop, "base_color: " + file, unpack) -
+           static_cast<long long>(std::filesystem::file_size(shop / file));
+  };
+  EXPECT_EQ(besides_its_bytes("a.hdr"), besides_its_bytes("a.png") + 3 * plane);
+}
+
+TEST(PredictedMemory, CountsAPartOfLargeFilesAndNothingOfOpenExr) {
+  const Workshop shop;
+  const auto of_size = [&](const std::string& name, size_t size) {
+    FileFacts facts;
+    facts.format = std::filesystem::path(name).extension() == ".exr" ? "openexr" : "png";
+    shop.write(name, "");
+    std::filesystem::resize_file(shop / name, size);
+    return bytes_kept(shop / name, facts);
+  };
+  EXPECT_EQ(of_size("a.png", 1000), 1000);
+  EXPECT_EQ(of_size("b.png", size_t{1} << 30), 16LL << 20);
+  EXPECT_EQ(of_size("a.exr", 1000), 0);
 }
 
 }  // namespace
