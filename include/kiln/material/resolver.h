@@ -33,9 +33,8 @@ Size shared_size(const SlotMaps& heads, const std::vector<Slot>& slots);
 /// Named maps to one BRDF per texel, rows at a time: what is decided once for all of them.
 class Resolver {
  public:
-  /// @param heads   what is given, read or not: constants, and images of which only size and
-  /// layers'
-  ///                names are looked at
+  /// @param heads   what is given, read or not: constants, and images of which only the size and
+  ///                the names of layers are looked at
   /// @param normal  of the normal map, where it is an image
   /// @error as shared_size
   Resolver(SlotMaps heads, const WorkflowSettings& settings, std::optional<NormalForm> normal);
