@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -36,11 +37,32 @@ bool contains(const auto& slots, Slot slot) {
   return std::find(slots.begin(), slots.end(), slot) != slots.end();
 }
 
-Schemes schemes_of(const std::vector<std::string>& names) {
+bool is_image(const std::string& extension) {
+  static const std::set<std::string> known = {".png", ".jpg", ".jpeg", ".exr", ".tif",  ".tiff",
+                                              ".hdr", ".tga", ".bmp",  ".tx",  ".webp", ".psd",
+                                              ".jp2", ".dpx", ".sgi",  ".pic"};
+  return known.count(extension) > 0;
+}
+
+bool all_begin_with(std::string_view prefix, const std::vector<std::string>& files) {
+  return !prefix.empty() && std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+    return file.starts_with(prefix) || !is_image(name_extension(file));
+  });
+}
+
+// All of them in their order, but that first whose prefix the names have.
+Schemes usual_schemes(const std::vector<std::string>& files) {
   Schemes schemes;
-  if (names.empty()) {
-    for (const NamingScheme& scheme : all_naming_schemes()) schemes.push_back(&scheme);
-  }
+  for (const NamingScheme& scheme : all_naming_schemes()) schemes.push_back(&scheme);
+  std::stable_partition(schemes.begin(), schemes.end(), [&](const NamingScheme* scheme) {
+    return all_begin_with(scheme->prefix, files);
+  });
+  return schemes;
+}
+
+Schemes schemes_of(const std::vector<std::string>& names, const std::vector<std::string>& files) {
+  if (names.empty()) return usual_schemes(files);
+  Schemes schemes;
   for (const std::string& name : names) schemes.push_back(&find_naming_scheme(name));
   return schemes;
 }
@@ -49,13 +71,6 @@ std::string scheme_names(const Schemes& schemes) {
   std::vector<std::string_view> names;
   for (const NamingScheme* scheme : schemes) names.push_back(scheme->name);
   return fmt::format("{}", fmt::join(names, ", "));
-}
-
-bool is_image(const std::string& extension) {
-  static const std::set<std::string> known = {".png", ".jpg", ".jpeg", ".exr", ".tif",  ".tiff",
-                                              ".hdr", ".tga", ".bmp",  ".tx",  ".webp", ".psd",
-                                              ".jp2", ".dpx", ".sgi",  ".pic"};
-  return known.count(extension) > 0;
 }
 
 void decide_color_space(MapSource& map) {
@@ -75,14 +90,18 @@ void decide_color_space(MapSource& map) {
 // What later schemes would have read a token of the same letters as: "; o3de reads it as height".
 std::string other_readings(const Schemes& schemes, const TokenMatch& match) {
   const NamingToken& taken = schemes[match.scheme]->tokens[match.token];
-  std::string text;
+  std::map<Slot, std::vector<std::string_view>> readers;
   for (size_t i = match.scheme + 1; i < schemes.size(); ++i) {
     for (const NamingToken& token : schemes[i]->tokens) {
       const Slot slot = token.targets.front().slot;
       if (squeezed(token.token) != squeezed(taken.token)) continue;
-      if (slot == taken.targets.front().slot) continue;
-      text += fmt::format("; {} reads it as {}", schemes[i]->name, slot_name(slot));
+      if (slot != taken.targets.front().slot) readers[slot].push_back(schemes[i]->name);
     }
+  }
+  std::string text;
+  for (const auto& [slot, names] : readers) {
+    text += fmt::format("; {} {} it as {}", fmt::join(names, ", "),
+                        names.size() == 1 ? "reads" : "read", slot_name(slot));
   }
   return text;
 }
@@ -316,7 +335,7 @@ FoundSet make_set(std::string name, const Claims& found, const WorkflowGuess& gu
 
 std::vector<FoundSet> find_sets(const std::string& folder_name,
                                 const std::vector<std::string>& files, const NamingRules& rules) {
-  const Schemes schemes = schemes_of(rules.schemes);
+  const Schemes schemes = schemes_of(rules.schemes, files);
   Claims found = claims_of(with_tile_patterns(files), schemes);
   std::vector<std::string> warnings;
   settle_specular(found, rules.workflow, warnings);

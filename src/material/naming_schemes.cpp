@@ -58,40 +58,39 @@ NamingScheme ambientcg() {
 }
 
 NamingScheme substance() {
-  return {
-      "substance",
-      "Substance, Unreal and Unity exports: Rock_BaseColor.png, T_Rock_ORM.png, Rock_MaskMap.png",
-      {whole("BaseColor", Slot::BaseColor),
-       whole("Diffuse", Slot::Diffuse),
-       whole("Roughness", Slot::Roughness),
-       whole("Glossiness", Slot::Gloss),
-       whole("Smoothness", Slot::Gloss),
-       whole("Metallic", Slot::Metallic),
-       normal("NormalOpenGL", NormalConvention::OpenGl),
-       normal("NormalDirectX", NormalConvention::DirectX),
-       normal("Normal", NormalConvention::Auto),
-       whole("Height", Slot::Height),
-       whole("AmbientOcclusion", Slot::AmbientOcclusion),
-       whole("SpecularLevel", Slot::SpecularLevel),
-       specular("Specular"),
-       whole("Opacity", Slot::Opacity),
-       whole("Emissive", Slot::Emissive),
-       occlusion_roughness_metallic("OcclusionRoughnessMetallic"),
-       occlusion_roughness_metallic("ORM"),
-       with_alpha("AlbedoTransparency", Slot::BaseColor),
-       packed("MetallicSmoothness", {{Slot::Metallic, "r"}, {Slot::Gloss, "a"}}),
-       packed("SpecularSmoothness", {{Slot::SpecularColor, "rgb"}, {Slot::Gloss, "a"}}),
-       packed("MaskMap",
-              {{Slot::Metallic, "r"}, {Slot::AmbientOcclusion, "g"}, {Slot::Gloss, "a"}}),
-       whole("BC", Slot::BaseColor),
-       whole("D", Slot::BaseColor),
-       whole("R", Slot::Roughness),
-       whole("M", Slot::Metallic),
-       normal("N", NormalConvention::Auto),
-       whole("H", Slot::Height),
-       whole("AO", Slot::AmbientOcclusion),
-       whole("O", Slot::AmbientOcclusion),
-       whole("E", Slot::Emissive)}};
+  return {"substance",
+          "Substance and Unity exports: Rock_BaseColor.png, Rock_ORM.png, Rock_MaskMap.png",
+          {whole("BaseColor", Slot::BaseColor),
+           whole("Diffuse", Slot::Diffuse),
+           whole("Roughness", Slot::Roughness),
+           whole("Glossiness", Slot::Gloss),
+           whole("Smoothness", Slot::Gloss),
+           whole("Metallic", Slot::Metallic),
+           normal("NormalOpenGL", NormalConvention::OpenGl),
+           normal("NormalDirectX", NormalConvention::DirectX),
+           normal("Normal", NormalConvention::Auto),
+           whole("Height", Slot::Height),
+           whole("AmbientOcclusion", Slot::AmbientOcclusion),
+           whole("SpecularLevel", Slot::SpecularLevel),
+           specular("Specular"),
+           whole("Opacity", Slot::Opacity),
+           whole("Emissive", Slot::Emissive),
+           occlusion_roughness_metallic("OcclusionRoughnessMetallic"),
+           occlusion_roughness_metallic("ORM"),
+           with_alpha("AlbedoTransparency", Slot::BaseColor),
+           packed("MetallicSmoothness", {{Slot::Metallic, "r"}, {Slot::Gloss, "a"}}),
+           packed("SpecularSmoothness", {{Slot::SpecularColor, "rgb"}, {Slot::Gloss, "a"}}),
+           packed("MaskMap",
+                  {{Slot::Metallic, "r"}, {Slot::AmbientOcclusion, "g"}, {Slot::Gloss, "a"}}),
+           whole("BC", Slot::BaseColor),
+           whole("D", Slot::BaseColor),
+           whole("R", Slot::Roughness),
+           whole("M", Slot::Metallic),
+           normal("N", NormalConvention::Auto),
+           whole("H", Slot::Height),
+           whole("AO", Slot::AmbientOcclusion),
+           whole("O", Slot::AmbientOcclusion),
+           whole("E", Slot::Emissive)}};
 }
 
 NamingScheme gltf() {
@@ -165,6 +164,87 @@ NamingScheme generic() {
            whole("emit", Slot::Emissive)}};
 }
 
+// The suffixes of assets named after their kind, T_Rock_N, and packed maps by their letters. The
+// engine's normals point down.
+NamingScheme unreal() {
+  return {"unreal",
+          "Unreal: T_Rock_BC.png, T_Rock_N.png (DirectX), T_Rock_ORM.png; first where all begin T_",
+          {whole("BaseColor", Slot::BaseColor),
+           whole("BC", Slot::BaseColor),
+           whole("D", Slot::BaseColor),
+           whole("Roughness", Slot::Roughness),
+           whole("R", Slot::Roughness),
+           whole("Metallic", Slot::Metallic),
+           whole("M", Slot::Metallic),
+           normal("Normal", NormalConvention::Auto),
+           normal("N", NormalConvention::Auto),
+           whole("Height", Slot::Height),
+           whole("H", Slot::Height),
+           whole("AmbientOcclusion", Slot::AmbientOcclusion),
+           whole("AO", Slot::AmbientOcclusion),
+           whole("O", Slot::AmbientOcclusion),
+           whole("Specular", Slot::SpecularLevel),
+           whole("Opacity", Slot::Opacity),
+           whole("Emissive", Slot::Emissive),
+           whole("E", Slot::Emissive),
+           occlusion_roughness_metallic("OcclusionRoughnessMetallic"),
+           occlusion_roughness_metallic("ORM"),
+           packed("MRA",
+                  {{Slot::Metallic, "r"}, {Slot::Roughness, "g"}, {Slot::AmbientOcclusion, "b"}}),
+           packed("RMA",
+                  {{Slot::Roughness, "r"}, {Slot::Metallic, "g"}, {Slot::AmbientOcclusion, "b"}})},
+          NormalConvention::DirectX,
+          "T_"};
+}
+
+// The words that the Principled setup of Node Wrangler looks for. Blender's normals point up.
+NamingScheme blender() {
+  constexpr NormalConvention up = NormalConvention::OpenGl;
+  return {"blender",
+          "Blender, as Node Wrangler reads names: wood_col, wood_rgh, wood_nrm, wood_bump, ...",
+          {whole("diffuse", Slot::BaseColor),
+           whole("diff", Slot::BaseColor),
+           whole("albedo", Slot::BaseColor),
+           whole("base", Slot::BaseColor),
+           whole("col", Slot::BaseColor),
+           whole("color", Slot::BaseColor),
+           whole("basecolor", Slot::BaseColor),
+           whole("metallic", Slot::Metallic),
+           whole("metalness", Slot::Metallic),
+           whole("metal", Slot::Metallic),
+           whole("mtl", Slot::Metallic),
+           whole("specularity", Slot::SpecularLevel),
+           whole("specular", Slot::SpecularLevel),
+           whole("spec", Slot::SpecularLevel),
+           whole("spc", Slot::SpecularLevel),
+           whole("roughness", Slot::Roughness),
+           whole("rough", Slot::Roughness),
+           whole("rgh", Slot::Roughness),
+           whole("gloss", Slot::Gloss),
+           whole("glossy", Slot::Gloss),
+           whole("glossiness", Slot::Gloss),
+           normal("normal", up),
+           normal("nor", up),
+           normal("nrm", up),
+           normal("nrml", up),
+           normal("norm", up),
+           whole("displacement", Slot::Height),
+           whole("displace", Slot::Height),
+           whole("disp", Slot::Height),
+           whole("dsp", Slot::Height),
+           whole("height", Slot::Height),
+           whole("heightmap", Slot::Height),
+           whole("bump", Slot::Height),
+           whole("bmp", Slot::Height),
+           whole("ao", Slot::AmbientOcclusion),
+           whole("ambientocclusion", Slot::AmbientOcclusion),
+           whole("alpha", Slot::Opacity),
+           whole("opacity", Slot::Opacity),
+           whole("emission", Slot::Emissive),
+           whole("emissive", Slot::Emissive),
+           whole("emit", Slot::Emissive)}};
+}
+
 // `_d` is displacement and `_m` metal here, elsewhere diffuse and, at times, a mask: this scheme
 // comes last, and has those letters only where it is asked for.
 NamingScheme o3de() {
@@ -228,8 +308,8 @@ NamingScheme o3de() {
 }  // namespace
 
 const std::vector<NamingScheme>& all_naming_schemes() {
-  static const std::vector<NamingScheme> schemes = {polyhaven(), ambientcg(), substance(),
-                                                    gltf(),      generic(),   o3de()};
+  static const std::vector<NamingScheme> schemes = {polyhaven(), ambientcg(), substance(), gltf(),
+                                                    generic(),   unreal(),    blender(),   o3de()};
   return schemes;
 }
 

@@ -31,6 +31,7 @@ struct NamingScheme {
   std::string_view meaning;
   std::vector<NamingToken> tokens;  ///< where two files claim one slot, the earlier token wins
   NormalConvention convention = NormalConvention::Auto;  ///< of every normal map of such a set
+  std::string_view prefix = {};  ///< where all names begin with it, this scheme is tried first
 };
 
 /// Every naming scheme there is, in the default order of preference.

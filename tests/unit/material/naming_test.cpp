@@ -227,6 +227,23 @@ TEST(NamingSchemes, ResolveTheClashOfOneLetterByTheirOrderAndSaySo) {
   EXPECT_EQ(source(stated[0], Slot::Metallic), "rock_mt.png:r");
 }
 
+TEST(NamingSchemes, TakeNamesThatAllBeginWithTForUnreals) {
+  const FoundSet set = only_set({"T_Rock_BC.png", "T_Rock_N.png", "T_Rock_MRA.png", "notes.txt"});
+  EXPECT_EQ(find(set, Slot::Normal)->scheme, "unreal");
+  EXPECT_EQ(find(set, Slot::Normal)->convention, NormalConvention::DirectX);
+  EXPECT_EQ(source(set, Slot::AmbientOcclusion), "T_Rock_MRA.png:b");
+  const FoundSet mixed = only_set({"T_Rock_BC.png", "Rock_N.png"});
+  EXPECT_EQ(find(mixed, Slot::Normal)->convention, NormalConvention::Auto);
+}
+
+TEST(NamingSchemes, OfBlenderTakeBumpsForHeightAndNormalsThatPointUp) {
+  const std::vector<std::string> files{"wood_col.png", "wood_nrm.png", "wood_bump.png"};
+  EXPECT_EQ(source(only_set(files), Slot::Height), "wood_bump.png:r");
+  EXPECT_EQ(find(only_set(files), Slot::Normal)->convention, NormalConvention::Auto);
+  const FoundSet stated = only_set(files, {{"blender"}, std::nullopt});
+  EXPECT_EQ(find(stated, Slot::Normal)->convention, NormalConvention::OpenGl);
+}
+
 TEST(NamingSchemes, ReadTheWorkflowThatIsCompleteAndWarnOfTheOther) {
   const FoundSet metal =
       only_set({"a_BaseColor.png", "a_Metallic.png", "a_Roughness.png", "a_Diffuse.png"});
