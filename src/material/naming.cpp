@@ -106,6 +106,10 @@ std::string other_readings(const Schemes& schemes, const TokenMatch& match) {
   return text;
 }
 
+std::string_view word_of(NormalConvention convention) {
+  return normal_convention_names[static_cast<size_t>(convention)];
+}
+
 Claim claim_of(const std::string& file, const Schemes& schemes, const TokenMatch& match,
                const TokenTarget& target) {
   const NamingScheme& scheme = *schemes[match.scheme];
@@ -127,6 +131,9 @@ Claim claim_of(const std::string& file, const Schemes& schemes, const TokenMatch
   if (target.slot == Slot::Normal) {
     const bool stated = token.convention != NormalConvention::Auto;
     map.convention = stated ? token.convention : scheme.convention;
+    if (map.convention != NormalConvention::Auto) {
+      map.reason += "; convention " + std::string(word_of(map.convention));
+    }
   }
   return claim;
 }
@@ -289,9 +296,8 @@ void adopt_convention(FoundSet& set, const Schemes& schemes) {
     for (const MapSource& map : set.maps) {
       if (map.scheme != scheme->name) continue;
       normal->convention = scheme->convention;
-      normal->reason += fmt::format(
-          "; convention {} as {} is a map of scheme {}",
-          normal_convention_names[static_cast<size_t>(scheme->convention)], map.file, scheme->name);
+      normal->reason += fmt::format("; convention {} as {} is a map of scheme {}",
+                                    word_of(scheme->convention), map.file, scheme->name);
       return;
     }
   }

@@ -70,6 +70,13 @@ EnvironmentChoice read_environment(const Entry& entry, const Reading& reading) {
   return environment;
 }
 
+// A constant is easily written where a file is named.
+void refuse_number(const std::string& key, const std::string& path) {
+  if (path.empty() || path.find_first_not_of("0123456789.-+e") != std::string::npos) return;
+  throw Error(Fault::Usage,
+              fmt::format("{}: found '{}', expected a file, or {{ value: {} }}", key, path, path));
+}
+
 MapChoice read_map(Slot slot, const Entry& entry, const Reading& reading) {
   MapChoice map;
   map.slot = slot;
@@ -80,6 +87,7 @@ MapChoice read_map(Slot slot, const Entry& entry, const Reading& reading) {
     if (path.empty() == !map.value.has_value()) {
       throw Error(Fault::Usage, fmt::format("{}: expected either a path or a value", entry.key));
     }
+    refuse_number(entry.key, path);
     if (!path.empty()) map.path = joined(reading.folder, path);
   });
   return map;

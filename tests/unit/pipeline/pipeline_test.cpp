@@ -106,6 +106,7 @@ sets:
       metallic: { path: m.png, value: 1 }
       roughness: { path: m.png, channel: rgb }
       gloss: { value: shiny }
+      height: 0.5
   - { glob: "*/", name: x }
   - { name: y }
 bakes: []
@@ -116,6 +117,7 @@ bakes: []
   EXPECT_THAT(all, HasSubstr("metallic: expected either a path or a value"));
   EXPECT_THAT(all, HasSubstr("roughness takes one of r, g, b, a"));
   EXPECT_THAT(all, HasSubstr("found 'shiny', expected a number"));
+  EXPECT_THAT(all, HasSubstr("height: found '0.5', expected a file, or { value: 0.5 }"));
   EXPECT_THAT(all, HasSubstr("a glob makes many sets"));
   EXPECT_THAT(all, HasSubstr("a set needs one of: glob, path, maps"));
 }
