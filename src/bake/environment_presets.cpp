@@ -5,24 +5,10 @@
 #include <fmt/ranges.h>
 
 #include "kiln/bake/environment.h"
-#include "kiln/core/error.h"
-#include "kiln/core/names.h"
+#include "kiln/core/find_named.h"
 #include "kiln/light/chain_plan.h"
 
 namespace kiln {
-namespace {
-
-template <class Item>
-const Item& find_named(const std::vector<Item>& items, const std::string& name, const char* kind) {
-  std::vector<std::string> names;
-  for (const Item& item : items) {
-    if (item.name == kebab(name)) return item;
-    names.push_back(item.name);
-  }
-  throw Error(Fault::Usage, unknown_name(kind, name, names));
-}
-
-}  // namespace
 
 const std::vector<EnvironmentFormat>& all_environment_formats() {
   static const std::vector<EnvironmentFormat> formats{
@@ -123,11 +109,11 @@ std::vector<std::string> environment_preset_names() {
 }
 
 const EnvironmentFormat& find_environment_format(const std::string& name) {
-  return find_named(all_environment_formats(), name, "format");
+  return find_named(all_environment_formats(), "format", name);
 }
 
 const EnvironmentPreset& find_environment_preset(const std::string& name) {
-  return find_named(all_environment_presets(), name, "preset");
+  return find_named(all_environment_presets(), "preset", name);
 }
 
 std::vector<NamedText> list_roughness_curves() {

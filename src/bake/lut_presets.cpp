@@ -2,6 +2,7 @@
 #include "lut_presets.h"
 
 #include "kiln/core/error.h"
+#include "kiln/core/find_named.h"
 #include "kiln/core/names.h"
 
 namespace kiln {
@@ -163,10 +164,7 @@ std::vector<std::string> lut_preset_names() {
 }
 
 const LutPreset& find_lut_preset(const std::string& name) {
-  for (const LutPreset& preset : all_lut_presets()) {
-    if (preset.name == kebab(name)) return preset;
-  }
-  throw Error(Fault::Usage, unknown_name("preset", name, lut_preset_names()));
+  return find_named(all_lut_presets(), "preset", name);
 }
 
 const LutPreset::Table& preset_table(const LutPreset& preset, const std::string& table) {

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "kiln/core/error.h"
+#include "kiln/core/find_named.h"
 #include "kiln/core/names.h"
 
 namespace kiln {
@@ -151,10 +152,7 @@ std::vector<std::string> pack_preset_names() {
 }
 
 const PackPreset& find_pack_preset(const std::string& name) {
-  for (const PackPreset& preset : all_pack_presets()) {
-    if (preset.name == kebab(name)) return preset;
-  }
-  throw Error(Fault::Usage, unknown_name("preset", name, pack_preset_names()));
+  return find_named(all_pack_presets(), "preset", name);
 }
 
 std::vector<NamedText> list_pack_presets() {

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "interruption.h"
 #include "kiln/core/error.h"
+#include "kiln/core/find_named.h"
 #include "kiln/pipeline/schema.h"
 
 namespace kiln {
@@ -51,11 +52,7 @@ std::string placeholder(const ParamFacts& facts) {
 }
 
 const BakeFacts& facts_of_bake(const std::string& bake) {
-  const auto& bakes = all_bakes();
-  const auto found = std::find_if(bakes.begin(), bakes.end(),
-                                  [&](const BakeFacts& facts) { return facts.name == bake; });
-  if (found == bakes.end()) throw Error(Fault::Internal, "no bake is named " + bake);
-  return *found;
+  return find_named(all_bakes(), "bake", bake);
 }
 
 void print_task(const fs::path& folder, const TaskRecord& task) {

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "kiln/core/error.h"
-#include "kiln/core/names.h"
+#include "kiln/core/find_named.h"
 
 namespace kiln {
 namespace {
@@ -72,12 +72,7 @@ std::vector<double> listed_roughness(const std::string& text) {
 }
 
 const RoughnessCurve& find_curve(const std::string& name) {
-  std::vector<std::string> names;
-  for (const RoughnessCurve& curve : all_roughness_curves()) {
-    if (curve.name == kebab(name)) return curve;
-    names.push_back(curve.name);
-  }
-  throw Error(Fault::Usage, unknown_name("curve", name, names));
+  return find_named(all_roughness_curves(), "curve", name);
 }
 
 bool is_list(const std::string& text) {

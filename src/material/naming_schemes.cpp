@@ -2,8 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "kiln/core/error.h"
-#include "kiln/core/names.h"
+#include "kiln/core/find_named.h"
 #include "kiln/material/naming.h"
 
 namespace kiln {
@@ -314,12 +313,7 @@ const std::vector<NamingScheme>& all_naming_schemes() {
 }
 
 const NamingScheme& find_naming_scheme(std::string_view name) {
-  std::vector<std::string> known;
-  for (const NamingScheme& scheme : all_naming_schemes()) {
-    if (scheme.name == kebab(name)) return scheme;
-    known.emplace_back(scheme.name);
-  }
-  throw Error(Fault::Usage, unknown_name("naming scheme", name, known));
+  return find_named(all_naming_schemes(), "naming scheme", name);
 }
 
 }  // namespace kiln

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "glob.h"
+#include "kiln/core/find_named.h"
 #include "kiln/pipeline/schema.h"
 #include "outputs.h"
 #include "sets.h"
@@ -24,12 +25,7 @@ struct Prepared {
 };
 
 const BakeFacts& facts_named(const std::string& bake) {
-  std::vector<std::string> known;
-  for (const BakeFacts& facts : all_bakes()) {
-    if (facts.name == bake) return facts;
-    known.push_back(facts.name);
-  }
-  throw Error(Fault::Usage, unknown_name("bake", bake, known));
+  return find_named(all_bakes(), "bake", bake);
 }
 
 std::optional<size_t> environment_index(const Pipeline& pipeline, const BakeChoice& choice) {

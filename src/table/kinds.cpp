@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "kiln/core/error.h"
-#include "kiln/core/names.h"
+#include "kiln/core/find_named.h"
 #include "kiln/table/lut.h"
 
 namespace kiln {
@@ -159,10 +159,7 @@ std::vector<std::string> table_names() {
 }
 
 const TableFacts& find_table(const std::string& name) {
-  for (const TableFacts& table : all_tables()) {
-    if (table.name == kebab(name)) return table;
-  }
-  throw Error(Fault::Usage, unknown_name("table", name, table_names()));
+  return find_named(all_tables(), "table", name);
 }
 
 TableRecipe recipe_of(const TableFacts& facts) {
