@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kiln/core/find_named.h"
+
 namespace kiln {
 namespace {
 
@@ -22,6 +24,16 @@ TEST(Names, UnknownOnesAreAnsweredWithTheNearestOrWithTheList) {
   EXPECT_EQ(unknown_name("table", "splt-sum", {"split-sum"}),
             "unknown table 'splt-sum' (did you mean 'split-sum'?)");
   EXPECT_EQ(unknown_name("table", "zzz", {"a-b", "c-d"}), "unknown table 'zzz' (known: a-b, c-d)");
+}
+
+TEST(Names, FindTheThingsOfAList) {
+  struct Thing {
+    std::string name;
+    int number;
+  };
+  const std::vector<Thing> things{{"split-sum", 1}, {"sheen", 2}};
+  EXPECT_EQ(find_named(things, "thing", "Split_Sum").number, 1);
+  EXPECT_THROW(find_named(things, "thing", "shen"), Error);
 }
 
 }  // namespace
