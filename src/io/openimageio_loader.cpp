@@ -50,8 +50,14 @@ void stop_idle_threads(void* library) {
   }
 }
 
+// What the build found to be heavy (CMakeLists.txt); of what is not here any more the module tells.
+void load_heavy_libraries() {
+  for (const char* name : {KILN_HEAVY_LIBRARIES}) dlopen(name, RTLD_NOW | RTLD_LOCAL);
+}
+
 const module::Face& load() {
   const fs::path path = module_path();
+  load_heavy_libraries();
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     throw Error(Fault::Internal, fmt::format("{}: does not load: {}", path.string(), dlerror()));
