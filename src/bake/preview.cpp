@@ -66,8 +66,8 @@ bool is_made_in_bands(const Settings& settings) {
 
 // How much of large maps the picture reads; nothing where it reads all.
 Size texels_read(const Settings& settings) {
+  if (settings.shape == PreviewBake::Shape::Contact) return texels_of_contact_sheet(settings);
   const bool ball = settings.shape == PreviewBake::Shape::Sphere;
-  if (settings.shape == PreviewBake::Shape::Contact) return {};
   constexpr int any_large = 1 << 20;
   return Picture::texels_read(ball, picture_size(settings, {any_large, any_large}));
 }

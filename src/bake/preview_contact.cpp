@@ -46,6 +46,12 @@ Layout layout_of(Size cell, int thumbnails) {
   return at;
 }
 
+// The size of one picture on the sheet.
+Size cell_of(const Settings& settings) {
+  constexpr Size usual{448, 448};
+  return settings.size.width > 0 ? settings.size : usual;
+}
+
 // The largest size of the same shape inside a cell.
 Size fitted(Size map, Size cell) {
   const double scale = std::min(static_cast<double>(cell.width) / map.width,
@@ -253,10 +259,16 @@ Layers false_colour_sheet(const std::vector<Tile>& tiles, const Layout& layout, 
 
 }  // namespace
 
+Size texels_of_contact_sheet(const Settings& settings) {
+  constexpr int least = 2048;  // of maps whose ranges are told
+  const Size cell = cell_of(settings), ball = Picture::texels_read(true, cell),
+             plane = Picture::texels_read(false, cell);
+  return {std::max({least, ball.width, plane.width}), std::max({least, ball.height, plane.height})};
+}
+
 ContactSheet make_contact_sheet(const Svbrdf& maps, const ShadingInputs& inputs,
                                 const Settings& settings, Vec3<double> to_viewer) {
-  const Size cell = settings.size.width > 0 ? settings.size : usual_cell;
-  const Layout layout = layout_of(cell, static_cast<int>(thumbnails_of(maps).size()));
+  const Layout layout = layout_of(cell_of(settings), static_cast<int>(thumbnails_of(maps).size()));
   const std::vector<Tile> tiles = render_tiles(maps, inputs, settings, layout, to_viewer);
   ContactSheet made{{{}, means_of(tiles)}, {}};
   Layers sheet = blank_sheet(maps, inputs, settings, made.whole.facts, layout);

@@ -16,8 +16,8 @@ struct ContactSheet {
   std::optional<Layers> view;  ///< of differences: the sheet in false colours, for a display
 };
 
-/// The size of one picture on the sheet where none is asked for.
-inline constexpr Size usual_cell{448, 448};
+/// So many texels each way are enough for its pictures, and for the ranges under its maps.
+Size texels_of_contact_sheet(const PreviewBake::Settings& settings);
 
 ContactSheet make_contact_sheet(const Svbrdf& maps, const ShadingInputs& inputs,
                                 const PreviewBake::Settings& settings, Vec3<double> to_viewer);
