@@ -45,7 +45,7 @@ LoadedSet load_set(const PlannedSet& set, const ColorChoice& color, const ColorC
   const SetCost cost = cost_of_set(set, {.resolved = true});
   const int halvings = halvings_of(size, wanted);
   const BandPlan bands = bands_of_material(cost, halvings, max_memory);
-  require_memory(bytes_of_material(cost, halvings, bands), max_memory,
+  require_memory(bytes_of_material(cost, halvings, bands, wanted), max_memory,
                  fmt::format("{}: a set of {} x {} texels", set.name, size.width, size.height));
   LoadedSet loaded;
   Svbrdf& whole = loaded.svbrdf;

@@ -99,17 +99,19 @@ RowCost cost_of_rows(const Plan& plan, const Task& task) {
           set.held + static_cast<long long>(held)};
 }
 
-long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands) {
-  // The maps themselves, and their copy in a picture with its levels.
+// Bands and files are let go before the maps are copied into a picture with its levels.
+long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands, Size picture) {
+  constexpr int planes_of_picture = 7;
   const long long maps = (area(set.size) >> (2 * halvings)) * 4 * set.planes;
-  return bytes_of(cost_of_material(set), bands) + maps + maps * 4 / 3;
+  const long long copied = maps * 4 / 3 + 4LL * planes_of_picture * area(picture);
+  return maps + std::max(bytes_of(cost_of_material(set), bands), process_bytes + copied);
 }
 
 BandPlan bands_of_material(const SetCost& set, int halvings, long long budget) {
-  BandPlan bands{128, 8};
+  BandPlan bands{std::max(64, 1 << halvings), available_threads() + 2};
   if (budget <= 0) return bands;
   const int least = std::max(16, 1 << halvings);
-  const auto bytes = [&] { return bytes_of_material(set, halvings, bands); };
+  const auto bytes = [&] { return bytes_of_material(set, halvings, bands, {}); };
   while (bands.at_once > 2 && bytes() > budget) --bands.at_once;
   while (bands.rows > least && bytes() > budget) bands.rows /= 2;
   return bands;
@@ -144,7 +146,7 @@ std::optional<long long> predicted_memory(const Plan& plan, const Task& task) {
   const Size picture = wanted.width > 0 ? wanted : set.size;
   const int halvings = halvings_of(set.size, wanted);
   const BandPlan bands = bands_of_material(set, halvings, plan.max_memory);
-  return bytes_of_material(set, halvings, bands) + 4LL * 7 * area(picture);
+  return bytes_of_material(set, halvings, bands, picture);
 }
 
 }  // namespace kiln

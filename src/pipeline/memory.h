@@ -46,8 +46,8 @@ SetCost cost_of_set(const PlannedSet& set, const MapNeeds& needs);
 /// multiple of 2^halvings rows.
 BandPlan bands_of_material(const SetCost& set, int halvings, long long budget);
 
-/// Bytes that the process takes at most with such a set.
-long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands);
+/// Bytes that the process takes at most with such a set and a picture of it.
+long long bytes_of_material(const SetCost& set, int halvings, const BandPlan& bands, Size picture);
 
 /// How often a set of that size may be halved and still be read at every texel.
 /// @param wanted  as Needs::material_for; no width: never
