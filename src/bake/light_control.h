@@ -46,15 +46,13 @@ void turn_into(const Frame<F>& frame, AxesAround<F>& around) {
 /// 30, 0.08 at 45 and 0.2 at 60, or less, whatever its width.
 /// Beyond 60 degrees, below the narrowest lobe that there is and with growing anisotropy, specular
 /// light is left to the samples by and by.
-/// @param lobes     none: no control
 /// @param wo        to the viewer, in the shading frame
 /// @param specular  reflectance of the lobe toward wo
 /// @param diffuse   all else that is reflected
 template <class F>
-LightControl<F> make_light_control(const ControlLobes* lobes, const Frame<F>& frame,
+LightControl<F> make_light_control(const ControlLobes& lobes, const Frame<F>& frame,
                                    const Vec3<F>& wo, F alpha_x, F alpha_y, const Vec3<F>& specular,
                                    const Vec3<F>& diffuse) {
-  if (lobes == nullptr) return no_control<F>();
   LightControl<F> control;
   const F alpha = sqrt(alpha_x * alpha_y), like = alpha * sqrt(wo.z);
   const F roundness = min(alpha_x, alpha_y) / max(alpha_x, alpha_y);
@@ -62,8 +60,8 @@ LightControl<F> make_light_control(const ControlLobes* lobes, const Frame<F>& fr
       select(like > F(0.7 * ControlLobes::least_alpha), roundness * min(F(2) * wo.z, F(1)), F(0));
   const F mirrored = F(1) - alpha * sqrt(alpha);
   const Vec3<F> axis{-mirrored * wo.x, -mirrored * wo.y, fma(mirrored, wo.z - F(1), F(1))};
-  control.lobe = lobes->lobes(frame.to_world(normalize(axis)), like);
-  control.cosine = lobes->cosines(frame.z);
+  control.lobe = lobes.lobes(frame.to_world(normalize(axis)), like);
+  control.cosine = lobes.cosines(frame.z);
   turn_into(frame, control.lobe.around);
   turn_into(frame, control.cosine.around);
   control.specular = specular * usable;

@@ -57,12 +57,13 @@ struct FusedShader {
     }
   }
   LightControl<F> control(const Point& point) const {
+    if (controls == nullptr) return no_control<F>();
     const Vec3<F> single = single_reflectance(point);
     const Vec3<F> total = point.surface.specular_reflectance(point.terms_o);
     const F left = clamp(F(1) - max_component(total), F(0), F(1));
     const Vec3<F> diffuse = point.surface.diffuse.albedo(point.wo.z) * left * point.occlusion;
     const Ggx<F>& ggx = point.surface.ggx;
-    return make_light_control(controls, point.frame, point.wo, ggx.alpha_x, ggx.alpha_y, single,
+    return make_light_control(*controls, point.frame, point.wo, ggx.alpha_x, ggx.alpha_y, single,
                               diffuse + total - single);
   }
   Vec3<F> reflected(const Point& point, const DistantLight& distant) const {
@@ -90,8 +91,9 @@ struct StagedShader {
     return make_staged_point(texel, placement, albedo, stages);
   }
   LightControl<F> control(const StagedPoint& point) const {
+    if (controls == nullptr) return no_control<F>();
     const F like_ggx(stages.alpha_is_width ? 1.0f : 0.0f);
-    return make_light_control(controls, point.frame, point.wo, point.alpha_x, point.alpha_y,
+    return make_light_control(*controls, point.frame, point.wo, point.alpha_x, point.alpha_y,
                               point.single_o * like_ggx,
                               diffuse_reflectance(point, stages) + point.total_o - point.single_o);
   }
