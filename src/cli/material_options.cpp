@@ -78,8 +78,9 @@ void MaterialOptions::add_to(Pipeline& pipeline) const {
 
 void require_names_for_sets(const Pipeline& pipeline, const std::string& output) {
   const auto names = [&](const char* word) { return output.find(word) != std::string::npos; };
+  if (names("{set}") || names("{udim}")) return;
   const std::vector<PlannedSet> sets = planned_sets(pipeline);
-  if (sets.size() == 1 || names("{set}") || names("{udim}")) return;
+  if (sets.size() == 1) return;
   std::vector<std::string> found;
   found.reserve(sets.size());
   for (const PlannedSet& set : sets) found.push_back(set.name);
